@@ -1,0 +1,40 @@
+# The house rules as build settings. Our own code is held to them; third-party headers are SYSTEM and are not.
+
+add_library(gyre_house INTERFACE)
+target_compile_options(gyre_house INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Werror)
+target_include_directories(gyre_house INTERFACE ${CMAKE_SOURCE_DIR})
+
+# gyre_library(NAME SOURCES... USES...): a static library of our own code; USES are its public dependencies.
+function(gyre_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;USES" ${ARGN})
+  if(arg_SOURCES)
+    add_library(${name} STATIC ${arg_SOURCES})
+    target_link_libraries(${name} PUBLIC ${arg_USES} PRIVATE gyre_house)
+    target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
+  else()
+    add_library(${name} INTERFACE)
+    target_link_libraries(${name} INTERFACE ${arg_USES})
+    target_include_directories(${name} INTERFACE ${CMAKE_SOURCE_DIR})
+  endif()
+endfunction()
+
+# gyre_executable(NAME SOURCES... USES...): a program, in build/bin.
+function(gyre_executable name)
+  cmake_parse_arguments(arg "" "" "SOURCES;USES" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_USES} gyre_house)
+endfunction()
+
+# gyre_test(NAME SOURCES... USES... [TIMEOUT s] [LABELS ...]): a GoogleTest program, one ctest entry per program.
+function(gyre_test name)
+  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;USES;LABELS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_USES} gyre_house GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE GYRE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" GYRE_BIN_DIR="${CMAKE_BINARY_DIR}/bin")
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  add_test(NAME ${name} COMMAND ${name})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}")
+endfunction()

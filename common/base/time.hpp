@@ -1,0 +1,42 @@
+#pragma once
+// Two clocks that must never be mixed, as two types that cannot be.
+//
+// Neither can be read here: a core is told the time, it never asks. Only mains read a clock.
+
+#include <chrono>
+#include <cstdint>
+
+namespace gyre {
+
+using Duration = std::chrono::nanoseconds;
+
+/// This process's own steady clock. Comparable only within one process.
+struct LocalClock {
+  using duration = Duration;
+  using rep = duration::rep;
+  using period = duration::period;
+  using time_point = std::chrono::time_point<LocalClock, duration>;
+  static constexpr bool is_steady = true;  // NOLINT(readability-identifier-naming): the standard's name
+};
+
+/// The clock the whole swarm shares: the coordinator's steady clock, estimated by everyone else.
+struct SwarmClock {
+  using duration = Duration;
+  using rep = duration::rep;
+  using period = duration::period;
+  using time_point = std::chrono::time_point<SwarmClock, duration>;
+  static constexpr bool is_steady = true;  // NOLINT(readability-identifier-naming): the standard's name
+};
+
+using LocalTime = LocalClock::time_point;
+using SwarmTime = SwarmClock::time_point;
+
+[[nodiscard]] constexpr double seconds(Duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+[[nodiscard]] constexpr Duration from_seconds(double value_s) {
+  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(value_s));
+}
+
+}  // namespace gyre

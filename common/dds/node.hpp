@@ -1,0 +1,96 @@
+#pragma once
+// A process on the wire: one Fast DDS participant that speaks Gyre's topics and nothing else.
+//
+// Discovery is a unicast star without multicast: hubs sit at fixed participant ids, agents right behind them, and
+// everybody's initial peers are the hubs. Fast DDS moves silently to another port when one is taken, so a lock per
+// participant id and domain (an abstract unix socket, gone with its process, private to its network namespace like the
+// ports themselves) turns two coordinators on one domain into a clear message.
+//
+// Writers and readers exist for the messages of protocol/messages.hpp only; each message knows its topic and QoS
+// (topics.hpp). A handler runs in a Fast DDS thread: it stamps and enqueues (inbox.hpp) and does nothing else.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/ids.hpp"
+#include "common/base/result.hpp"
+#include "common/base/time.hpp"
+
+namespace gyre::dds {
+
+/// Participant ids of the hubs of the star.
+enum class Hub { kCoordinator = 0, kStandby = 1, kSimulator = 2, kGround = 3 };
+
+/// Who this process is in the star: a hub, an agent (id 3 + carrier), or a visitor (a short-lived tool at any free id).
+struct Seat {
+  std::optional<Hub> hub;
+  std::optional<CarrierId> carrier;
+};
+
+struct NodeOptions {
+  Seat seat;
+  int domain = 0;                       ///< 0..100
+  std::string interface = "127.0.0.1";  ///< IPv4 address of the one interface to use
+  std::vector<std::string> peers;       ///< further hosts (IPv4) where hubs may sit; the own interface is always one
+};
+
+/// --domain, else ROS_DOMAIN_ID, else 0. An error names the source and the allowed range 0..100.
+[[nodiscard]] Result<int> choose_domain(std::optional<int> option);
+
+class Node;
+
+template <class Message>
+class Writer {
+ public:
+  Writer() = default;
+  /// Never blocks for long and never throws; a message that cannot be sent is counted by the node.
+  void write(const Message& message) const;
+
+  struct State;
+  explicit Writer(std::shared_ptr<State> state) : state_(std::move(state)) {}
+
+ private:
+  std::shared_ptr<State> state_;
+};
+
+class Node {
+ public:
+  /// Fails when the seat is taken (the error names the process that has it), the domain is out of range, or the
+  /// interface does not exist.
+  [[nodiscard]] static Result<std::unique_ptr<Node>> open(const NodeOptions& options);
+  ~Node();
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+
+  /// `carrier` is required for the carrier_N topics and absent for the others.
+  template <class Message>
+  [[nodiscard]] Writer<Message> writer(std::optional<CarrierId> carrier = std::nullopt);
+
+  /// `handler(message, arrived)` runs in a Fast DDS thread. Samples that do not decode are counted, not delivered.
+  template <class Message>
+  void read(std::function<void(Message, LocalTime)> handler, std::optional<CarrierId> carrier = std::nullopt);
+
+  struct Counters {
+    std::uint64_t unsendable = 0;   ///< write refused by Fast DDS or message too large
+    std::uint64_t undecodable = 0;  ///< sample arrived that is no such message
+  };
+  [[nodiscard]] Counters counters() const;
+
+  struct Impl;
+
+ private:
+  explicit Node(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Whether a seat is free on a domain, without taking it; `holder` describes who has it otherwise.
+struct SeatHolder {
+  bool taken = false;
+  std::string holder;  ///< "pid 1234 (gyre-coordinator)"
+};
+[[nodiscard]] SeatHolder seat_holder(const Seat& seat, int domain);
+
+}  // namespace gyre::dds

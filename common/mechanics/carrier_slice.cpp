@@ -1,0 +1,35 @@
+#include "common/mechanics/carrier_slice.hpp"
+
+#include <unordered_map>
+
+#include "common/mechanics/grasp.hpp"
+
+namespace gyre::mechanics {
+
+std::vector<CarrierSlice> slices(const Plan& plan) {
+  const std::vector<Eigen::Vector3d> arms = lever_arms(plan);
+  const ParticularForce particular = particular_force(arms, holding_wrench(plan.load.mass_kg, plan.gravity_m_s2));
+
+  std::vector<CarrierSlice> out(plan.carriers.size());
+  std::unordered_map<CarrierId, std::size_t> index;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    index[plan.carriers[i].id] = i;
+    out[i].id = plan.carriers[i].id;
+    out[i].attachment_w_m = plan.load.position_w_m + arms[i];
+    out[i].particular_force_w_n = particular.forces_w_n[i];
+    out[i].rate_rad_s = plan.cycle.rate_rad_s;
+    out[i].law = plan.carriers[i].law;
+    out[i].cable_stiffness_n_m = plan.cable.stiffness_n_m;
+  }
+  for (const Edge& edge : plan.cycle.edges) {
+    const std::size_t k = index.at(edge.from);
+    const std::size_t l = index.at(edge.to);
+    // d_j = (r_k − r_l) / |r_k − r_l|; +lambda_j d_j at k, −lambda_j d_j at l: no net force, no net moment.
+    const Eigen::Vector3d d = (arms[k] - arms[l]).normalized();
+    out[k].outgoing = {d, edge.offset_n, edge.amplitude_n, edge.phase_rad};
+    out[l].incoming = {-d, edge.offset_n, edge.amplitude_n, edge.phase_rad};
+  }
+  return out;
+}
+
+}  // namespace gyre::mechanics

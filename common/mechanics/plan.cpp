@@ -1,0 +1,83 @@
+#include "common/mechanics/plan.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace gyre::mechanics {
+namespace {
+
+constexpr double kTwoPi = 6.283185307179586476925286766559;
+
+Oscillation held(const Oscillation& oscillation, double theta_rad) {
+  Oscillation still = oscillation;
+  still.mean += oscillation.swing * std::sin(oscillation.harmonic.ratio() * theta_rad + oscillation.phase_rad);
+  still.swing = 0.0;
+  return still;
+}
+
+}  // namespace
+
+LengthLaw LengthLaw::level(double altitude_m) {
+  return {Kind::kLevel, Eigen::Vector3d::UnitZ(), Oscillation{altitude_m, 0.0, {}, 0.0}};
+}
+
+LengthLaw LengthLaw::directional(const Eigen::Vector3d& direction, const Oscillation& profile_m) {
+  return {Kind::kDirectional, direction.normalized(), profile_m};
+}
+
+LengthLaw LengthLaw::sine(const Oscillation& length_m) {
+  return {Kind::kSine, Eigen::Vector3d::UnitZ(), length_m};
+}
+
+LengthLaw LengthLaw::fixed(double length_m) {
+  return {Kind::kFixed, Eigen::Vector3d::UnitZ(), Oscillation{length_m, 0.0, {}, 0.0}};
+}
+
+const char* name(LengthLaw::Kind kind) {
+  switch (kind) {
+    case LengthLaw::Kind::kLevel:
+      return "level";
+    case LengthLaw::Kind::kDirectional:
+      return "directional";
+    case LengthLaw::Kind::kSine:
+      return "sine";
+    case LengthLaw::Kind::kFixed:
+      return "fixed";
+  }
+  return "unknown";
+}
+
+std::vector<Eigen::Vector3d> lever_arms(const Plan& plan) {
+  const Eigen::Matrix3d rotation = plan.load.orientation_w_b.toRotationMatrix();
+  std::vector<Eigen::Vector3d> arms;
+  arms.reserve(plan.carriers.size());
+  for (const Carrier& carrier : plan.carriers) arms.emplace_back(rotation * carrier.attachment_b_m);
+  return arms;
+}
+
+double period_s(const Plan& plan) {
+  int turns = 1;
+  for (const Carrier& carrier : plan.carriers) {
+    if (!carrier.law.profile.constant()) turns = std::lcm(turns, carrier.law.profile.harmonic.denominator);
+  }
+  return turns * kTwoPi / plan.cycle.rate_rad_s;
+}
+
+Plan rest_plan(const Plan& plan) {
+  Plan rest = plan;
+  for (Edge& edge : rest.cycle.edges) edge.amplitude_n = 0.0;
+  for (Carrier& carrier : rest.carriers) carrier.law.profile.swing = 0.0;
+  return rest;
+}
+
+Plan static_plan(const Plan& plan, double theta_rad) {
+  Plan still = plan;
+  for (Edge& edge : still.cycle.edges) {
+    edge.offset_n += edge.amplitude_n * std::sin(theta_rad + edge.phase_rad);
+    edge.amplitude_n = 0.0;
+  }
+  for (Carrier& carrier : still.carriers) carrier.law.profile = held(carrier.law.profile, theta_rad);
+  return still;
+}
+
+}  // namespace gyre::mechanics

@@ -1,0 +1,93 @@
+#pragma once
+// A plan: everything that decides how a load is held, for all time. Immutable once built; no numbers of any process.
+//
+//   symbol      meaning                                        shape     frame   unit
+//   m, J        mass, inertia of the load                      1, 3x3    B       kg, kg m²
+//   p_L, R      load pose, held constant                       3, 3x3    W       m
+//   b_i         attachment of carrier i on the load            3         B       m
+//   lambda_j    internal force along cycle edge j              1         -       N
+//   theta       phase of the cycle, rate · t                   1         -       rad
+//
+//   lambda_j(t) = offset_j + amplitude_j sin(theta + phase_j)                                   (cycle parameters)
+//
+// Source: Franchi, Landi, Gabellieri; DESIGN "The mechanics in one page".
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "common/base/ids.hpp"
+#include "common/mechanics/length_law.hpp"
+
+namespace gyre::mechanics {
+
+struct Load {
+  double mass_kg = 0.0;
+  Eigen::Matrix3d inertia_b_kg_m2 = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d position_w_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation_w_b = Eigen::Quaterniond::Identity();
+};
+
+struct Cable {
+  double stiffness_n_m = 0.0;
+  double damping_n_s_m = 0.0;
+};
+
+struct Carrier {
+  CarrierId id = 0;
+  Eigen::Vector3d attachment_b_m = Eigen::Vector3d::Zero();
+  LengthLaw law;
+};
+
+/// e_j = (from, to): the edge pushes +lambda_j d_j at `from` and −lambda_j d_j at `to`, d_j from `to` to `from`.
+struct Edge {
+  CarrierId from = 0;
+  CarrierId to = 0;
+  double offset_n = 0.0;
+  double amplitude_n = 0.0;
+  double phase_rad = 0.0;
+};
+
+/// A Hamiltonian cycle over the carriers, in order of travel; two carriers share the one edge they have.
+struct Cycle {
+  double rate_rad_s = 0.0;
+  std::vector<Edge> edges;
+};
+
+/// What the motion must respect; an absent limit is not judged.
+struct Limits {
+  std::optional<double> tension_min_n, tension_max_n;
+  std::optional<double> length_min_m, length_max_m;
+  std::optional<double> winch_rate_max_m_s;
+  std::optional<double> speed_min_m_s, speed_max_m_s;
+  std::optional<double> acceleration_max_m_s2;
+  std::optional<double> separation_min_m;
+  std::optional<double> vertical_cosine_min;
+};
+
+/// Built by the mission reader or by hand; valid means: at least one carrier, unique ids, positive mass, and edges
+/// that are a Hamiltonian cycle over the carriers (none for one carrier, one for two). Nothing here checks it again.
+struct Plan {
+  Load load;
+  double gravity_m_s2 = 9.81;
+  Cable cable;
+  std::vector<Carrier> carriers;
+  Cycle cycle;
+  Limits limits;
+};
+
+/// r_i = R b_i for every carrier, W.
+[[nodiscard]] std::vector<Eigen::Vector3d> lever_arms(const Plan& plan);
+
+/// Seconds after which the whole motion repeats: the cycle's period times the denominators of the laws' harmonics.
+[[nodiscard]] double period_s(const Plan& plan);
+
+/// The same load held still: every edge keeps its offset, every profile its mean. Where a flight starts and ends:
+/// no carrier spends more internal force than its offsets ask for.
+[[nodiscard]] Plan rest_plan(const Plan& plan);
+
+/// The same load held still as it is held at phase theta: the equilibrium that includes a carrier stuck there.
+[[nodiscard]] Plan static_plan(const Plan& plan, double theta_rad);
+
+}  // namespace gyre::mechanics

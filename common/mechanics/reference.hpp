@@ -1,0 +1,86 @@
+#pragma once
+// The one place where the paper's formulas stand: what a carrier has to do at time t.
+//
+//   symbol   meaning                                            shape   frame   unit
+//   f        force of the cable on the load                     3       W       N
+//   s        tension, |f|                                       1       -       N
+//   q        cable direction, attachment to carrier, unit       3       W       -
+//   l        cable length                                       1       -       m
+//   p        carrier position                                   3       W       m
+//   t        time since the plan's epoch (theta = rate · t)     1       -       s
+//
+// Every quantity carries its exact first and second time derivative (taylor.hpp).
+// Source: Franchi, Landi, Gabellieri; equation names as in DESIGN.
+
+#include <cmath>
+
+#include "common/mechanics/carrier_slice.hpp"
+#include "common/mechanics/taylor.hpp"
+
+namespace gyre::mechanics {
+
+template <class S>
+struct BasicReference {
+  TaylorVector<S> force_w_n;
+  Taylor<S> tension_n;
+  TaylorVector<S> direction_w;
+  Taylor<S> length_m;
+  TaylorVector<S> position_w_m;
+};
+
+using Reference = BasicReference<double>;
+
+/// mean + swing sin(rate · t + phase).
+template <class S>
+[[nodiscard]] inline Taylor<S> oscillation(double mean, double swing, double rate_rad_s, double phase_rad,
+                                           const S& t_s) {
+  using std::cos;
+  using std::sin;
+  const S angle = rate_rad_s * t_s + phase_rad;
+  const S sine = swing * sin(angle);
+  const S cosine = swing * cos(angle);
+  return {S(mean + sine), S(rate_rad_s * cosine), S(-(rate_rad_s * rate_rad_s) * sine)};
+}
+
+template <class S>
+[[nodiscard]] inline TaylorVector<S> force(const CarrierSlice& c, const S& t_s) {
+  // lambda_j = offset_j + amplitude_j sin(theta + phase_j)
+  const auto lambda_in =
+      oscillation(c.incoming.offset_n, c.incoming.amplitude_n, c.rate_rad_s, c.incoming.phase_rad, t_s);
+  const auto lambda_out =
+      oscillation(c.outgoing.offset_n, c.outgoing.amplitude_n, c.rate_rad_s, c.outgoing.phase_rad, t_s);
+  // f_i = f0_i + lambda_in delta_i + lambda_out deltabar_i
+  return constant_vector<S>(c.particular_force_w_n) + lambda_in * c.incoming.direction +
+         lambda_out * c.outgoing.direction;
+}
+
+/// The law's length for a cable that points along q; q need not be the plan's own direction (transition.hpp).
+template <class S>
+[[nodiscard]] inline Taylor<S> length(const CarrierSlice& c, const TaylorVector<S>& q, const S& t_s) {
+  const Oscillation& profile = c.law.profile;
+  const Taylor<S> target =
+      profile.constant()
+          ? constant(S(profile.mean))
+          : oscillation(profile.mean, profile.swing, c.rate_rad_s * profile.harmonic.ratio(), profile.phase_rad, t_s);
+  if (!c.law.is_projection()) return target;
+  // l = (s*(t) − u·B) / (u·q)
+  return (target - constant(S(c.law.direction.dot(c.attachment_w_m)))) / dot(c.law.direction, q);
+}
+
+/// What follows from a force and a length: direction, tension, position.
+template <class S>
+[[nodiscard]] inline BasicReference<S> hang(const CarrierSlice& c, const TaylorVector<S>& f, const Taylor<S>& s,
+                                            const TaylorVector<S>& q, const Taylor<S>& l) {
+  // p_i = p_L + r_i + l_i q_i
+  return {f, s, q, l, constant_vector<S>(c.attachment_w_m) + l * q};
+}
+
+template <class S>
+[[nodiscard]] inline BasicReference<S> evaluate(const CarrierSlice& c, const S& t_s) {
+  const TaylorVector<S> f = force(c, t_s);
+  const Taylor<S> s = norm(f);
+  const TaylorVector<S> q = f / s;
+  return hang(c, f, s, q, length(c, q, t_s));
+}
+
+}  // namespace gyre::mechanics

@@ -1,0 +1,205 @@
+#pragma once
+// What processes say to each other, as plain data. common/dds carries it; nothing here knows how.
+//
+// Units are in the names; _w is the world frame, _b the body frame of the load. Times are typed: SwarmTime is shared,
+// LocalTime means something only to the process that stamped it.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/base/ids.hpp"
+#include "common/base/time.hpp"
+#include "common/mechanics/carrier_slice.hpp"
+
+namespace gyre::protocol {
+
+/// A plan's number. The term is the coordinator's that made it; revision 0 means "no plan".
+struct PlanNumber {
+  std::uint64_t term = 0;
+  std::uint64_t revision = 0;
+
+  [[nodiscard]] bool none() const { return revision == 0; }
+  friend bool operator==(const PlanNumber& a, const PlanNumber& b) {
+    return a.term == b.term && a.revision == b.revision;
+  }
+  friend bool operator!=(const PlanNumber& a, const PlanNumber& b) { return !(a == b); }
+  friend bool operator<(const PlanNumber& a, const PlanNumber& b) {
+    return a.term != b.term ? a.term < b.term : a.revision < b.revision;
+  }
+};
+
+/// A plan on the swarm's clock: theta = rate · (now − epoch).
+struct TimedPlan {
+  PlanNumber number;
+  SwarmTime epoch{};
+
+  friend bool operator==(const TimedPlan& a, const TimedPlan& b) { return a.number == b.number && a.epoch == b.epoch; }
+};
+
+/// A transition is proposed until every agent has confirmed it, then it is go; a revoked one is simply not there.
+enum class Stage : std::uint8_t { kProposed = 1, kGo = 2 };
+
+struct Transition {
+  std::uint64_t id = 0;
+  TimedPlan to;
+  SwarmTime start{};
+  Duration duration{};
+  Stage stage = Stage::kProposed;
+
+  [[nodiscard]] SwarmTime end() const { return start + duration; }
+  friend bool operator==(const Transition& a, const Transition& b) {
+    return a.id == b.id && a.to == b.to && a.start == b.start && a.duration == b.duration && a.stage == b.stage;
+  }
+};
+
+/// More than this many transitions are never under way at once: engage, turn back, freeze, and one to spare.
+inline constexpr std::size_t kMaxTransitions = 4;
+/// The plans a course can refer to: its base and one per transition.
+inline constexpr std::size_t kMaxPlans = kMaxTransitions + 1;
+
+/// What the swarm flies, whole: a plan at the bottom and the transitions that lie on it (mechanics/transition.hpp).
+struct Course {
+  std::uint64_t revision = 0;  ///< grows with every change within a term
+  TimedPlan base;
+  std::vector<Transition> transitions;
+
+  friend bool operator==(const Course& a, const Course& b) {
+    return a.revision == b.revision && a.base == b.base && a.transitions == b.transitions;
+  }
+};
+
+/// Topic phase, coordinator to all. Complete in itself: one received is enough to know everything.
+struct Beacon {
+  std::uint64_t term = 0;
+  std::uint64_t sequence = 0;
+  SwarmTime swarm_time{};
+  Course course;
+};
+
+struct NumberedSlice {
+  PlanNumber number;
+  mechanics::CarrierSlice slice;
+};
+
+/// Topic carrier_N/plan, coordinator to agent N: every plan this carrier has to know now. State, not an event, so a
+/// late joiner needs no history. At most kMaxPlans.
+struct PlanOffer {
+  CarrierId carrier = 0;
+  std::uint64_t term = 0;
+  std::vector<NumberedSlice> slices;
+};
+
+/// Topics carrier_N/time_request and time_reply: the four timestamps of a two-way exchange.
+struct TimeRequest {
+  CarrierId carrier = 0;
+  std::uint64_t incarnation = 0;
+  std::uint64_t sequence = 0;
+  LocalTime sent{};  ///< agent's clock
+};
+
+struct TimeReply {
+  CarrierId carrier = 0;
+  std::uint64_t incarnation = 0;
+  std::uint64_t sequence = 0;
+  std::uint64_t term = 0;
+  LocalTime request_sent{};      ///< echoed
+  SwarmTime request_received{};  ///< coordinator's clock
+  SwarmTime reply_sent{};        ///< coordinator's clock
+};
+
+/// What was dropped, and why; in every process that listens.
+struct DropCounts {
+  std::uint64_t late = 0;
+  std::uint64_t duplicate = 0;
+  std::uint64_t wrong_term = 0;
+  std::uint64_t nonsense = 0;
+};
+
+enum class AgentState : std::uint8_t {
+  kWaiting = 1,  ///< no swarm time or no plan yet: sends no setpoints
+  kReady = 2,    ///< follows a plan at rest, or could
+  kFlying = 3,   ///< follows a plan that moves
+  kAlone = 4,    ///< flies on without the coordinator
+};
+
+/// Topic carrier_N/status. Carries back all the coordinator has told, so that a restarted one can learn it.
+struct AgentStatus {
+  CarrierId carrier = 0;
+  std::uint64_t incarnation = 0;  ///< differs after every start of the agent
+  std::uint64_t sequence = 0;
+  std::uint64_t term = 0;
+  AgentState state = AgentState::kWaiting;
+  SwarmTime swarm_time{};  ///< the agent's estimate when it sent this
+  Duration clock_uncertainty{};
+  double clock_drift_ppm = 0.0;
+  Course course;                     ///< what it follows
+  std::uint64_t confirmed = 0;       ///< id of the newest transition it has confirmed
+  std::vector<PlanNumber> accepted;  ///< plans it holds and can fly
+  PlanNumber refused;                ///< the newest plan it cannot fly, and why
+  std::string refusal;               ///< at most kMaxTextBytes
+  std::uint64_t beacons_received = 0;
+  std::uint64_t beacons_missed = 0;
+  DropCounts dropped;
+};
+
+/// Topic carrier_N/setpoint, agent N to its vehicle.
+struct Setpoint {
+  CarrierId carrier = 0;
+  std::uint64_t sequence = 0;
+  SwarmTime swarm_time{};  ///< for which it holds
+  Eigen::Vector3d position_w_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_w_m_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d acceleration_w_m_s2 = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction_w = Eigen::Vector3d::UnitZ();
+  double tension_n = 0.0;
+  double cable_length_m = 0.0;  ///< attachment to carrier, as the plan has it
+  double winch_length_m = 0.0;  ///< unstretched: what the winch has to have paid out
+  double winch_rate_m_s = 0.0;
+  double winch_acceleration_m_s2 = 0.0;
+};
+
+/// Topic carrier_N/state, vehicle to agent N and ground.
+struct CarrierState {
+  CarrierId carrier = 0;
+  std::uint64_t sequence = 0;
+  LocalTime stamp{};  ///< the vehicle's clock
+  Eigen::Vector3d position_w_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_w_m_s = Eigen::Vector3d::Zero();
+  double tension_n = 0.0;
+  double cable_length_m = 0.0;  ///< attachment to carrier, stretched
+  double winch_length_m = 0.0;  ///< paid out, unstretched
+  double winch_rate_m_s = 0.0;
+};
+
+/// Topic load/state, simulator or motion capture to ground.
+struct LoadState {
+  std::uint64_t sequence = 0;
+  LocalTime stamp{};
+  Eigen::Vector3d position_w_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_w_m_s = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation_w_b = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d angular_velocity_b_rad_s = Eigen::Vector3d::Zero();
+};
+
+enum class CommandKind : std::uint8_t { kEngage = 1, kRelease = 2, kFreeze = 3, kRetune = 4 };
+
+/// Topics command and command_reply, ground to coordinator and back.
+struct Command {
+  std::uint64_t id = 0;  ///< chosen by the sender, echoed in the reply
+  CommandKind kind = CommandKind::kEngage;
+  std::string mission;  ///< retune: the text of a mission file; at most kMaxMissionBytes
+};
+
+struct CommandReply {
+  std::uint64_t id = 0;
+  bool done = false;
+  std::string text;
+};
+
+inline constexpr std::size_t kMaxTextBytes = 255;
+inline constexpr std::size_t kMaxMissionBytes = 32768;
+
+}  // namespace gyre::protocol

@@ -67,7 +67,7 @@ struct CarrierFigures {
 };
 
 struct Separation {
-  double min_m = std::numeric_limits<double>::infinity();  ///< proven lower bound, within 1e-9 relative of attained
+  double min_m = std::numeric_limits<double>::infinity();  ///< proven lower bound, attained to 1e-7 relative
   CarrierId first = 0, second = 0;                         ///< the pair that comes so close
 };
 
@@ -76,7 +76,7 @@ struct Certificate {
   double period_s = 0.0;
   double wrench_error_max_n = 0.0;
   Separation separation;
-  /// Smallest generalised eigenvalue of the load's stiffness against (m I, J) over all time [1/s²]; a lower bound.
+  /// Smallest generalised eigenvalue of the load's stiffness against (m I, J) over all time [1/s²] (stiffness.hpp).
   double stiffness_min_1_s2 = 0.0;
   std::vector<CarrierFigures> carriers;  ///< in the plan's order
 
@@ -87,6 +87,7 @@ struct Certificate {
 struct CertifyOptions {
   bool separation = true;
   bool stiffness = true;
+  bool non_stop = true;  ///< off for a plan that is meant to stand still
 };
 
 [[nodiscard]] Certificate certify(const Plan& plan, const CertifyOptions& options = {});

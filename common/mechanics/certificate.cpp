@@ -1,0 +1,67 @@
+#include "common/mechanics/certificate.hpp"
+
+#include <cmath>
+
+#include "common/mechanics/carrier_slice.hpp"
+#include "common/mechanics/grasp.hpp"
+#include "common/mechanics/judgement.hpp"
+#include "common/mechanics/orbit_figures.hpp"
+#include "common/mechanics/separation.hpp"
+#include "common/mechanics/stiffness.hpp"
+
+namespace gyre::mechanics {
+namespace {
+
+/// max |G f − w| over all time: the residual is c + a sin(theta) + b cos(theta), and |c| + √(|a|² + |b|²) bounds it.
+double wrench_error(const Plan& plan, const std::vector<CarrierSlice>& slices) {
+  Vector6d mean = -holding_wrench(plan.load.mass_kg, plan.gravity_m_s2);
+  Vector6d sine = Vector6d::Zero();
+  Vector6d cosine = Vector6d::Zero();
+  for (const CarrierSlice& c : slices) {
+    const Eigen::Vector3d r = c.attachment_w_m - plan.load.position_w_m;
+    const auto add = [&r](Vector6d& wrench, const Eigen::Vector3d& f) {
+      wrench.head<3>() += f;
+      wrench.tail<3>() += r.cross(f);
+    };
+    add(mean, c.particular_force_w_n);
+    for (const EdgePush* edge : {&c.incoming, &c.outgoing}) {
+      add(mean, edge->offset_n * edge->direction);
+      add(sine, edge->amplitude_n * std::cos(edge->phase_rad) * edge->direction);
+      add(cosine, edge->amplitude_n * std::sin(edge->phase_rad) * edge->direction);
+    }
+  }
+  return mean.norm() + std::sqrt(sine.squaredNorm() + cosine.squaredNorm());
+}
+
+}  // namespace
+
+Certificate certify(const Plan& plan, const CertifyOptions& options) {
+  Certificate certificate;
+  certificate.period_s = period_s(plan);
+  judge_equilibrium(plan, certificate.reasons);
+
+  const std::vector<CarrierSlice> all = slices(plan);
+  if (options.non_stop) judge_construction(plan, all, certificate.reasons);
+  certificate.wrench_error_max_n = wrench_error(plan, all);
+  certificate.carriers.reserve(all.size());
+  bool bounded = true;
+  for (const CarrierSlice& slice : all) {
+    certificate.carriers.push_back(orbit_figures(slice));
+    bounded = bounded && std::isfinite(certificate.carriers.back().acceleration_max_m_s2);
+    judge_carrier(certificate.carriers.back(), plan.limits, options.non_stop, certificate.reasons);
+  }
+  if (options.separation) certificate.separation = separation(all, certificate.carriers, certificate.period_s);
+  if (options.stiffness && bounded) {
+    certificate.stiffness_min_1_s2 = least_stiffness(plan, all, certificate.period_s);
+    if (certificate.stiffness_min_1_s2 <= 0.0) {
+      certificate.reasons.push_back(
+          {Rule::kStiffness, std::nullopt,
+           "the load is not stable under these cables: its smallest stiffness is not positive, so it would tip over; "
+           "attach the cables above the centre of mass, or spread the attachments"});
+    }
+  }
+  judge_formation(certificate, plan.limits, certificate.reasons);
+  return certificate;
+}
+
+}  // namespace gyre::mechanics

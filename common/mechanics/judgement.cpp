@@ -1,0 +1,230 @@
+#include "common/mechanics/judgement.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "common/base/text.hpp"
+#include "common/mechanics/grasp.hpp"
+
+namespace gyre::mechanics {
+namespace {
+
+/// Sines of angles below this are rounding of the file's digits, not geometry.
+constexpr double kAlmostZero = 1e-9;
+
+void refuse(std::vector<Reason>& reasons, Rule rule, std::optional<CarrierId> carrier, std::string text) {
+  reasons.push_back({rule, carrier, std::move(text)});
+}
+
+void judge_pair(const std::vector<CarrierSlice>& slices, std::vector<Reason>& reasons) {
+  for (const CarrierSlice& c : slices) {
+    const LengthLaw& law = c.law;
+    const Eigen::Vector3d d = c.incoming.direction + c.outgoing.direction;  // one of them is zero
+    if (law.is_projection() && law.profile.constant()) {
+      refuse(reasons, Rule::kTwoCarrierObstruction, c.id,
+             text("carrier %u: two carriers on a periodic %s motion both stop whenever d(lambda)/dt = 0; give both a "
+                  "sine length law that is moving at those moments, or add a third carrier",
+                  c.id, name(law.kind)));
+    } else if (law.profile.constant()) {
+      refuse(reasons, Rule::kTwoCarrierConstruction, c.id,
+             text("carrier %u: with two carriers the length has to swing (b_i != 0), or the carrier stops whenever "
+                  "d(lambda)/dt = 0; its length law is %s with no swing; use sine with a swing other than 0",
+                  c.id, name(law.kind)));
+    }
+    if (c.particular_force_w_n.normalized().cross(d).norm() < kAlmostZero) {
+      refuse(reasons, Rule::kTwoCarrierConstruction, c.id,
+             text("carrier %u: its particular force f0 lies along the line between the attachments, so its cable "
+                  "direction cannot change; move the attachments so that the load does not hang along their line",
+                  c.id));
+    }
+  }
+}
+
+void judge_many(const std::vector<CarrierSlice>& slices, std::vector<Reason>& reasons) {
+  for (const CarrierSlice& c : slices) {
+    if (!c.law.profile.constant()) continue;  // a length that moves can keep a carrier going by itself
+    const Eigen::Vector3d normal = c.incoming.direction.cross(c.outgoing.direction);
+    if (normal.norm() < kAlmostZero) {
+      refuse(reasons, Rule::kRank, c.id,
+             text("carrier %u: rank [delta deltabar] = 1: its attachment is in line with both neighbours in the cycle; "
+                  "move an attachment or order the cycle so that its two edges differ in direction",
+                  c.id));
+      continue;
+    }
+    if (std::abs(c.particular_force_w_n.normalized().dot(normal.normalized())) < kAlmostZero) {
+      refuse(reasons, Rule::kPlane, c.id,
+             text("carrier %u: its particular force f0 lies in the plane of its two edges, span{delta, deltabar}; "
+                  "tilt the load or move attachments out of the vertical plane",
+                  c.id));
+    }
+    const bool still = c.incoming.amplitude_n == 0.0 || c.outgoing.amplitude_n == 0.0;
+    if (still || std::abs(std::sin(c.incoming.phase_rad - c.outgoing.phase_rad)) < kAlmostZero) {
+      refuse(reasons, Rule::kPhaseCondition, c.id,
+             text("carrier %u: the phases of its two edges (%.6g and %.6g rad) differ by a multiple of pi, or one of "
+                  "them has no amplitude: its force runs back and forth on a line and stops at the ends; give both "
+                  "edges an amplitude and phases that differ by anything but a multiple of pi",
+                  c.id, c.incoming.phase_rad, c.outgoing.phase_rad));
+    }
+  }
+}
+
+/// One line per limit: the figure, the limit it breaks, and the cure.
+struct Bound {
+  Rule rule;
+  const char* what;
+  const char* unit;
+  const char* limit_name;
+  const char* cure;
+};
+
+void at_least(const Bound& b, double figure, const std::optional<double>& limit, CarrierId id,
+              std::vector<Reason>& reasons) {
+  if (!limit || figure >= *limit) return;
+  refuse(reasons, b.rule, id,
+         text("carrier %u: %s falls to %.6g%s, below %s %.6g; %s", id, b.what, figure, b.unit, b.limit_name, *limit,
+              b.cure));
+}
+
+void at_most(const Bound& b, double figure, const std::optional<double>& limit, CarrierId id,
+             std::vector<Reason>& reasons) {
+  if (!limit || figure <= *limit) return;
+  refuse(reasons, b.rule, id,
+         text("carrier %u: %s reaches %.6g%s, above %s %.6g; %s", id, b.what, figure, b.unit, b.limit_name, *limit,
+              b.cure));
+}
+
+}  // namespace
+
+const char* name(Rule rule) {
+  switch (rule) {
+    case Rule::kOneCarrierImpossibility:
+      return "one-carrier impossibility";
+    case Rule::kTwoCarrierObstruction:
+      return "two-carrier obstruction";
+    case Rule::kTwoCarrierConstruction:
+      return "two-carrier construction";
+    case Rule::kRank:
+      return "rank";
+    case Rule::kPlane:
+      return "plane";
+    case Rule::kPhaseCondition:
+      return "phase condition";
+    case Rule::kInfeasibleEquilibrium:
+      return "infeasible equilibrium";
+    case Rule::kNonStop:
+      return "non-stop";
+    case Rule::kTension:
+      return "tension";
+    case Rule::kVerticalCosine:
+      return "vertical cosine";
+    case Rule::kDirectionCosine:
+      return "direction cosine";
+    case Rule::kLengthBounds:
+      return "length bounds";
+    case Rule::kWinchRate:
+      return "winch rate";
+    case Rule::kSpeed:
+      return "speed";
+    case Rule::kAcceleration:
+      return "acceleration";
+    case Rule::kSeparation:
+      return "separation";
+    case Rule::kStiffness:
+      return "stiffness";
+  }
+  return "unknown";
+}
+
+void judge_equilibrium(const Plan& plan, std::vector<Reason>& reasons) {
+  const Vector6d wrench = holding_wrench(plan.load.mass_kg, plan.gravity_m_s2);
+  const ParticularForce particular = particular_force(lever_arms(plan), wrench);
+  if (particular.residual <= kAlmostZero * wrench.norm()) return;
+  refuse(reasons, Rule::kInfeasibleEquilibrium, std::nullopt,
+         text("no cable forces at these attachments hold the load in this pose: a moment of %.6g N m stays unbalanced; "
+              "place the attachments so that the centre of mass is under (or over) their point, line or polygon, or "
+              "tilt the load",
+              particular.residual));
+}
+
+void judge_construction(const Plan& plan, const std::vector<CarrierSlice>& slices, std::vector<Reason>& reasons) {
+  if (plan.carriers.size() == 1) {
+    refuse(reasons, Rule::kOneCarrierImpossibility, plan.carriers.front().id,
+           "one carrier cannot hold a load still without stopping: its force has to be the weight, so its cable keeps "
+           "one direction and any motion along it is unbounded or turns back; use two carriers with sine lengths, or "
+           "three and more");
+  } else if (plan.carriers.size() == 2) {
+    judge_pair(slices, reasons);
+  } else {
+    judge_many(slices, reasons);
+  }
+}
+
+void judge_carrier(const CarrierFigures& f, const Limits& limits, bool non_stop, std::vector<Reason>& reasons) {
+  const CarrierId id = f.id;
+  if (f.tension_n.min <= 1e-6 * f.tension_n.max) {
+    refuse(reasons, Rule::kTension, id,
+           text("carrier %u: its tension falls to zero and the cable goes slack; lower the amplitudes of its edges or "
+                "raise their offsets",
+                id));
+    return;  // without a direction no other figure means anything
+  }
+  if (f.direction_cosine_min && *f.direction_cosine_min <= 0.0) {
+    const bool vertical = !(f.vertical_cosine.min > 0.0 || f.vertical_cosine.max < 0.0);
+    refuse(reasons, vertical ? Rule::kVerticalCosine : Rule::kDirectionCosine, id,
+           text("carrier %u: its cable becomes perpendicular to the direction its length law projects on (u·q passes "
+                "through zero), so no finite length keeps the profile; lower the amplitudes of its edges, or raise "
+                "the share of the weight it carries",
+                id));
+    return;
+  }
+  if (f.length_m.min <= 0.0) {
+    refuse(reasons, Rule::kLengthBounds, id,
+           text("carrier %u: its cable length falls to %.6g m; a cable has to be longer than nothing: raise the "
+                "carrier's altitude (or profile, or mean length) above its attachment",
+                id, f.length_m.min));
+  }
+  at_least({Rule::kTension, "tension", " N", "tension_min_n", "lower the amplitudes of its edges or raise offsets"},
+           f.tension_n.min, limits.tension_min_n, id, reasons);
+  at_most({Rule::kTension, "tension", " N", "tension_max_n", "lower the amplitudes or offsets of its edges"},
+          f.tension_n.max, limits.tension_max_n, id, reasons);
+  at_least({Rule::kLengthBounds, "length", " m", "length_min_m", "raise its altitude, profile or mean length"},
+           f.length_m.min, limits.length_min_m, id, reasons);
+  at_most({Rule::kLengthBounds, "length", " m", "length_max_m", "lower its altitude, profile or mean length"},
+          f.length_m.max, limits.length_max_m, id, reasons);
+  at_most({Rule::kWinchRate, "winch rate", " m/s", "winch_rate_max_m_s",
+           "lower the cycle's rate, or choose phases nearer to the edge headings"},
+          f.winch_rate_max_m_s(), limits.winch_rate_max_m_s, id, reasons);
+  at_most({Rule::kSpeed, "speed", " m/s", "speed_max_m_s", "lower the cycle's rate or the amplitudes"}, f.speed_m_s.max,
+          limits.speed_max_m_s, id, reasons);
+  at_most({Rule::kAcceleration, "acceleration", " m/s²", "acceleration_max_m_s2",
+           "lower the cycle's rate or the amplitudes"},
+          f.acceleration_max_m_s2, limits.acceleration_max_m_s2, id, reasons);
+  if (limits.vertical_cosine_min) {
+    const double least = std::max(f.vertical_cosine.min, -f.vertical_cosine.max);  // |q_z|, which keeps one sign
+    at_least({Rule::kVerticalCosine, "vertical cosine |q_z|", "", "vertical_cosine_min",
+              "lower the amplitudes of its edges"},
+             least, limits.vertical_cosine_min, id, reasons);
+  }
+  if (!non_stop) return;
+  if (f.speed_m_s.min <= 1e-6 * f.speed_m_s.max) {
+    refuse(reasons, Rule::kNonStop, id,
+           text("carrier %u: it stops once or more in every period; choose phases, amplitudes and rate so that its "
+                "cable direction or its length is always moving",
+                id));
+  }
+  at_least({Rule::kSpeed, "speed", " m/s", "speed_min_m_s",
+            "raise the cycle's rate, or choose phases nearer to the edge headings"},
+           f.speed_m_s.min, limits.speed_min_m_s, id, reasons);
+}
+
+void judge_formation(const Certificate& certificate, const Limits& limits, std::vector<Reason>& reasons) {
+  const Separation& s = certificate.separation;
+  if (limits.separation_min_m && s.min_m < *limits.separation_min_m) {
+    refuse(reasons, Rule::kSeparation, s.first,
+           text("carriers %u and %u come as close as %.6g m, below separation_min_m %.6g; set their altitudes or "
+                "attachments further apart, or lower the amplitudes",
+                s.first, s.second, s.min_m, *limits.separation_min_m));
+  }
+}
+
+}  // namespace gyre::mechanics

@@ -1,0 +1,28 @@
+#pragma once
+// What one carrier does at its worst over all time, from its slice alone.
+//
+//   symbol   meaning                                                                  degree in psi
+//   psi      base angle: theta = harmonic denominator · psi, so all is 2 pi periodic
+//   f        force                                                                    vector, 1 (times denominator)
+//   M        f·f, tension squared                                                     2
+//   g        u·f of a projection law                                                  1
+//   sigma    s* − u·B of a projection law, l* of a free one                           0 or the profile's
+//
+//   projection    l = sigma √M / g     p − B = sigma f / g
+//       V = (sigma f)' g − sigma f g',  v = V / g²          A = V' g − 2 V g',  a = A / g³
+//   free          l = sigma            p − B = sigma f / √M
+//       V = (sigma f)' M − sigma f M'/2, v = V / M^(3/2)    A = V' M − (3/2) V M', a = A / M^(5/2)
+//
+// (primes are d/dpsi; times the base rate once or twice for time derivatives)
+// Reference: DESIGN fact 1.
+
+#include "common/mechanics/carrier_slice.hpp"
+#include "common/mechanics/certificate.hpp"
+
+namespace gyre::mechanics {
+
+/// Where the law has no bounded length (u·q passes through zero) or the cable goes slack, lengths, rates, speeds and
+/// altitudes are infinite; tension and cosines are always exact.
+[[nodiscard]] CarrierFigures orbit_figures(const CarrierSlice& slice);
+
+}  // namespace gyre::mechanics

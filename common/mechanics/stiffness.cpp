@@ -1,0 +1,61 @@
+#include "common/mechanics/stiffness.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <boost/math/tools/minima.hpp>
+
+#include "common/mechanics/grasp.hpp"
+#include "common/mechanics/reference.hpp"
+
+namespace gyre::mechanics {
+
+Matrix6d load_stiffness(const Plan& plan, const std::vector<CarrierSlice>& slices, double t_s) {
+  Matrix6d k_load = Matrix6d::Zero();
+  for (const CarrierSlice& slice : slices) {
+    const Reference reference = evaluate(slice, t_s);
+    const Eigen::Vector3d f = reference.force_w_n.value;
+    const Eigen::Vector3d q = reference.direction_w.value;
+    const Eigen::Vector3d r = slice.attachment_w_m - plan.load.position_w_m;
+    Eigen::Matrix<double, 3, 6> j;
+    j << Eigen::Matrix3d::Identity(), -skew(r);
+    const Eigen::Matrix3d along = q * q.transpose();
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along;
+    // K = sum J' [k q q' + (s/l)(I − q q')] J + (0 (+) ((f·r) I − sym(f r')))
+    k_load += j.transpose() *
+              (plan.cable.stiffness_n_m * along + reference.tension_n.value / reference.length_m.value * across) * j;
+    const Eigen::Matrix3d moment = f * r.transpose();
+    k_load.bottomRightCorner<3, 3>() += f.dot(r) * Eigen::Matrix3d::Identity() - 0.5 * (moment + moment.transpose());
+  }
+  return k_load;
+}
+
+Matrix6d load_inertia(const Load& load) {
+  const Eigen::Matrix3d rotation = load.orientation_w_b.toRotationMatrix();
+  Matrix6d inertia = Matrix6d::Zero();
+  inertia.topLeftCorner<3, 3>() = load.mass_kg * Eigen::Matrix3d::Identity();
+  inertia.bottomRightCorner<3, 3>() = rotation * load.inertia_b_kg_m2 * rotation.transpose();
+  return inertia;
+}
+
+double least_stiffness(const Plan& plan, const std::vector<CarrierSlice>& slices, double period_s) {
+  const Matrix6d inertia = load_inertia(plan.load);
+  const auto eigenvalue = [&](double t_s) {
+    const Matrix6d k = load_stiffness(plan, slices, t_s);
+    return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d>(k, inertia, Eigen::EigenvaluesOnly).eigenvalues()(0);
+  };
+  constexpr int kSamples = 128;
+  const double step = period_s / kSamples;
+  int least = 0;
+  double least_value = eigenvalue(0.0);
+  for (int i = 1; i < kSamples; ++i) {
+    const double value = eigenvalue(step * i);
+    if (value < least_value) {
+      least = i;
+      least_value = value;
+    }
+  }
+  constexpr int kBits = 26;
+  const auto refined = boost::math::tools::brent_find_minima(eigenvalue, step * (least - 1), step * (least + 1), kBits);
+  return std::min(least_value, refined.second);
+}
+
+}  // namespace gyre::mechanics

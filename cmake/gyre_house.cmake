@@ -26,6 +26,7 @@ function(gyre_executable name)
 endfunction()
 
 # gyre_test(NAME SOURCES... USES... [TIMEOUT s] [LABELS ...]): a GoogleTest program, one ctest entry per program.
+# Its room, the folder's name under tests/, is always among its labels: `ctest -L mechanics`.
 function(gyre_test name)
   cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;USES;LABELS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
@@ -36,5 +37,20 @@ function(gyre_test name)
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
-  set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}")
+  file(RELATIVE_PATH room ${CMAKE_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
+  set(labels ${room} ${arg_LABELS})
+  list(REMOVE_DUPLICATES labels)
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${labels}")
+  if("processes" IN_LIST labels OR "dds" IN_LIST labels)
+    set_tests_properties(${name} PROPERTIES RUN_SERIAL ON)  # real time on few cores: alone on the machine
+  endif()
+endfunction()
+
+# gyre_benchmark(NAME SOURCES... USES...): a program that prints its table, in build/bench; `./tests/run --bench` runs it.
+function(gyre_benchmark name)
+  cmake_parse_arguments(arg "" "" "SOURCES;USES" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_USES} gyre_house)
+  target_compile_definitions(${name} PRIVATE GYRE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" GYRE_BIN_DIR="${CMAKE_BINARY_DIR}/bin")
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bench)
 endfunction()

@@ -19,7 +19,7 @@ std::vector<CarrierSlice> slices(const Plan& plan) {
     out[i].particular_force_w_n = particular.forces_w_n[i];
     out[i].rate_rad_s = plan.cycle.rate_rad_s;
     out[i].law = plan.carriers[i].law;
-    out[i].cable_stiffness_n_m = plan.cable.stiffness_n_m;
+    out[i].cable_stiffness_n_m = plan.cable.compensate_stretch ? plan.cable.stiffness_n_m : 0.0;
   }
   for (const Edge& edge : plan.cycle.edges) {
     const std::size_t k = index.at(edge.from);

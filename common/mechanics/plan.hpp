@@ -32,6 +32,8 @@ struct Load {
 struct Cable {
   double stiffness_n_m = 0.0;
   double damping_n_s_m = 0.0;
+  /// The winch gives back what the tension stretches, so that the load hangs where the plan says.
+  bool compensate_stretch = true;
 };
 
 struct Carrier {

@@ -62,4 +62,26 @@ template <class S>
   return hang(*layers[count - 1].slice, f, s, q, l);
 }
 
+/// A plan on a clock, and the transition that brought it in. Seconds on one clock of the caller's choice.
+struct TimedLayer {
+  const CarrierSlice* slice = nullptr;
+  double epoch_s = 0.0;
+  double start_s = 0.0;     ///< not read for the bottom layer
+  double duration_s = 0.0;  ///< not read for the bottom layer
+};
+
+/// More layers than this never lie on each other (protocol::kMaxPlans).
+inline constexpr std::size_t kMaxLayers = 5;
+
+/// The reference at `now_s`; `layers` from the bottom up, 1..kMaxLayers.
+[[nodiscard]] inline Reference evaluate_course(const TimedLayer* layers, std::size_t count, double now_s) {
+  GYRE_ENSURE(count <= kMaxLayers, "a course has a bounded number of layers");
+  std::array<Layer<double>, kMaxLayers> stack;
+  for (std::size_t i = 0; i < count; ++i) {
+    stack[i] = {layers[i].slice, now_s - layers[i].epoch_s,
+                transition_weight(now_s - layers[i].start_s, layers[i].duration_s)};
+  }
+  return evaluate_mixture(stack.data(), count);
+}
+
 }  // namespace gyre::mechanics

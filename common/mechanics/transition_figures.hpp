@@ -1,0 +1,23 @@
+#pragma once
+// What a carrier does at its worst while transitions are under way.
+//
+// A mixture has no critical polynomial, so its extremes are enclosed: the same formulas (transition.hpp) are evaluated
+// in interval arithmetic on cells of time, with the mean value form, and cells are halved until the enclosure is tight.
+// The result holds every value of the window and is wider than the truth by at most kTransitionSlack of each figure's
+// greatest magnitude: a proof, not a sampling.
+//
+// Reference: DESIGN facts 1 and 3; R. E. Moore, Interval Analysis.
+
+#include <vector>
+
+#include "common/mechanics/certificate.hpp"
+#include "common/mechanics/transition.hpp"
+
+namespace gyre::mechanics {
+
+inline constexpr double kTransitionSlack = 2e-3;
+
+/// Over [begin_s, end_s] on the layers' clock. `direction_cosine_min` stays absent.
+[[nodiscard]] CarrierFigures transition_figures(const std::vector<TimedLayer>& layers, double begin_s, double end_s);
+
+}  // namespace gyre::mechanics

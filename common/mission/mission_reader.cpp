@@ -1,0 +1,341 @@
+#include <google/protobuf/io/tokenizer.h>
+#include <google/protobuf/text_format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "common/mission/complaints.hpp"
+#include "common/mission/located.hpp"
+#include "common/mission/mission.hpp"
+#include "common/mission/schema_complaint.hpp"
+#include "common/mission/topology.hpp"
+#include "idl/mission.pb.h"
+
+namespace gyre::mission {
+namespace {
+
+namespace pb = ::gyre::mission::schema;
+using mechanics::Harmonic;
+using mechanics::LengthLaw;
+using mechanics::Oscillation;
+
+// What is not absurd. Anything outside is a slip of the unit or of the exponent, not a flight.
+constexpr Span kMassKg{1e-6, 1e6, "kg"};
+constexpr Span kInertia{-1e9, 1e9, "kg m^2"};
+constexpr Span kPlaceM{-1e5, 1e5, "m"};
+constexpr Span kLengthM{0.0, 1e5, "m"};
+constexpr Span kComponent{-1e6, 1e6, ""};
+constexpr Span kGravity{1e-3, 1e3, "m/s^2"};
+constexpr Span kForceN{-1e7, 1e7, "N"};
+constexpr Span kPositiveForceN{0.0, 1e7, "N"};
+constexpr Span kRate{1e-6, 1e3, "rad/s"};
+constexpr Span kPhaseRad{-1e3, 1e3, "rad"};
+constexpr Span kSpeed{0.0, 1e4, "m/s"};
+constexpr Span kAcceleration{0.0, 1e6, "m/s^2"};
+constexpr Span kStiffness{1e-3, 1e9, "N/m"};
+constexpr Span kDamping{0.0, 1e9, "N s/m"};
+constexpr Span kTimeConstantS{0.0, 1e3, "s"};
+constexpr Span kGustTimeS{1e-3, 1e4, "s"};
+constexpr Span kDurationS{0.1, 3600.0, "s"};
+constexpr Span kCosine{0.0, 1.0, ""};
+constexpr Span kRotationDeg{0.0, 180.0, "deg"};
+
+constexpr double kUnitTolerance = 1e-6;      // of the norm of a quaternion
+constexpr double kHarmonicTolerance = 1e-9;  // relative, of a rate against a multiple of the cycle's
+constexpr int kMaxNumerator = 64;
+constexpr int kMaxDenominator = 8;
+constexpr std::size_t kMaxNameBytes = 64;
+
+class ParseErrors : public google::protobuf::io::ErrorCollector {
+ public:
+  explicit ParseErrors(Complaints& complaints) : complaints_(complaints) {}
+  void AddError(int line, int column, const std::string& message) override {
+    complaints_.add(line, column, "", with_cure(message));
+  }
+  /// Unknown fields arrive here, so that parsing goes on behind them; they are errors all the same.
+  void AddWarning(int line, int column, const std::string& message) override { AddError(line, column, message); }
+
+ private:
+  Complaints& complaints_;
+};
+
+Eigen::Matrix3d read_inertia(const Located& inertia) {
+  const auto entry = [&](const char* field) { return inertia.number(field, kInertia, 0.0); };
+  const double xy = entry("xy");
+  const double xz = entry("xz");
+  const double yz = entry("yz");
+  Eigen::Matrix3d matrix;
+  matrix << entry("x"), xy, xz,  //
+      xy, entry("y"), yz,        //
+      xz, yz, entry("z");
+  const Eigen::Vector3d principal =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+  const std::string moments =
+      "the principal moments are " + show(principal[0]) + ", " + show(principal[1]) + ", " + show(principal[2]);
+  if (principal[0] <= 0.0) {
+    inertia.complain(moments + "; all three have to be positive");
+  } else if (principal[0] + principal[1] < principal[2] * (1.0 - 1e-9)) {
+    inertia.complain(moments + "; no body has one that is greater than the sum of the other two: check the units");
+  }
+  return matrix;
+}
+
+Eigen::Quaterniond read_orientation(const Located& load) {
+  if (!load.has("orientation")) return Eigen::Quaterniond::Identity();
+  const Located node = load.child("orientation");
+  const auto component = [&](const char* field) { return node.number(field, kComponent, 0.0); };
+  const Eigen::Quaterniond q(component("w"), component("x"), component("y"), component("z"));
+  const double norm = q.norm();
+  if (std::abs(norm - 1.0) > kUnitTolerance) {
+    std::string cure = "give a unit quaternion (to " + show(kUnitTolerance) + ")";
+    if (norm > 0.0) {
+      cure += ", for instance w: " + show(q.w() / norm) + " x: " + show(q.x() / norm) + " y: " + show(q.y() / norm) +
+              " z: " + show(q.z() / norm);
+    }
+    node.complain("has norm " + show(norm) + "; " + cure);
+    return Eigen::Quaterniond::Identity();
+  }
+  return q.normalized();
+}
+
+mechanics::Load read_load(const Located& load) {
+  mechanics::Load out;
+  out.mass_kg = load.number("mass_kg", kMassKg);
+  const Located inertia =
+      load.required_child("inertia_kg_m2", "give inertia_kg_m2 { x: .. y: .. z: .. } in the body frame");
+  if (load.has("inertia_kg_m2")) out.inertia_b_kg_m2 = read_inertia(inertia);
+  out.position_w_m = load.vector("position_m", kPlaceM);
+  out.orientation_w_b = read_orientation(load);
+  return out;
+}
+
+/// The multiple of the cycle's rate that is closest to this ratio.
+Harmonic closest_harmonic(double ratio) {
+  Harmonic best;
+  for (int q = 1; q <= kMaxDenominator; ++q) {
+    const double p = std::round(ratio * q);
+    const Harmonic candidate{static_cast<int>(std::clamp(p, 1.0, static_cast<double>(kMaxNumerator))), q};
+    // Strictly closer by more than rounding, so that 2/1 is never written 4/2.
+    if (std::abs(candidate.ratio() - ratio) < std::abs(best.ratio() - ratio) - 1e-12 * ratio) best = candidate;
+  }
+  return best;
+}
+
+Harmonic read_harmonic(const Located& law, double cycle_rate_rad_s) {
+  if (!law.has("rate_rad_s")) return {};
+  const double rate = law.number("rate_rad_s", kRate);
+  const double ratio = rate / cycle_rate_rad_s;
+  const Harmonic harmonic = closest_harmonic(ratio);
+  if (std::abs(harmonic.ratio() - ratio) > kHarmonicTolerance * ratio) {
+    law.complain("rate_rad_s", "is " + show(ratio) +
+                                   " times the cycle's rate, so the motion would have no period; the "
+                                   "closest rate p/q times the cycle's, p up to " +
+                                   std::to_string(kMaxNumerator) + " and q up to " + std::to_string(kMaxDenominator) +
+                                   ", is " + show(harmonic.ratio() * cycle_rate_rad_s));
+  }
+  return harmonic;
+}
+
+Oscillation read_oscillation(const Located& law, const Span& mean, std::optional<double> absent_swing,
+                             double cycle_rate_rad_s) {
+  Oscillation out;
+  out.mean = law.number("mean_m", mean);
+  out.swing = law.number("swing_m", kPlaceM, absent_swing);
+  out.harmonic = read_harmonic(law, cycle_rate_rad_s);
+  out.phase_rad = law.number("phase_rad", kPhaseRad, 0.0);
+  return out;
+}
+
+LengthLaw read_law(const Located& carrier, double cycle_rate_rad_s) {
+  if (carrier.has("level")) return LengthLaw::level(carrier.child("level").number("altitude_m", kPlaceM));
+  if (carrier.has("fixed")) return LengthLaw::fixed(carrier.child("fixed").number("length_m", kLengthM));
+  if (carrier.has("sine")) {
+    return LengthLaw::sine(read_oscillation(carrier.child("sine"), kLengthM, std::nullopt, cycle_rate_rad_s));
+  }
+  if (carrier.has("directional")) {
+    const Located law = carrier.child("directional");
+    Eigen::Vector3d direction = law.vector("direction", kComponent);
+    if (!(direction.norm() > 1e-9)) {
+      law.complain("direction",
+                   "has no length; give the direction the profile runs along, for instance { x: 0 y: 0 z: 1 }");
+      direction = Eigen::Vector3d::UnitZ();
+    }
+    return LengthLaw::directional(direction, read_oscillation(law, kPlaceM, 0.0, cycle_rate_rad_s));
+  }
+  carrier.complain(
+      "has no length law; give one of level { altitude_m }, directional { direction mean_m .. }, "
+      "sine { mean_m swing_m .. }, fixed { length_m }");
+  return {};
+}
+
+std::vector<mechanics::Carrier> read_carriers(const std::vector<Located>& nodes, double cycle_rate_rad_s) {
+  std::vector<mechanics::Carrier> out;
+  std::set<CarrierId> seen;
+  for (const Located& node : nodes) {
+    mechanics::Carrier carrier;
+    carrier.id = node.whole_number("id", 1, kMaxCarrierId);
+    if (carrier.id != 0 && !seen.insert(carrier.id).second) {
+      node.complain("id",
+                    "is " + std::to_string(carrier.id) + ", which another carrier has; give every carrier its own id");
+    }
+    (void)node.required_child("attachment_m", "give attachment_m { x: .. y: .. z: .. } in the body frame");
+    carrier.attachment_b_m = node.vector("attachment_m", kPlaceM);
+    carrier.law = read_law(node, cycle_rate_rad_s);
+    out.push_back(std::move(carrier));
+  }
+  return out;
+}
+
+std::vector<mechanics::Edge> read_edges(const std::vector<Located>& nodes) {
+  std::vector<mechanics::Edge> out;
+  for (const Located& node : nodes) {
+    mechanics::Edge edge;
+    edge.from = node.whole_number("from", 1, kMaxCarrierId);
+    edge.to = node.whole_number("to", 1, kMaxCarrierId);
+    edge.offset_n = node.number("offset_n", kForceN, 0.0);
+    edge.amplitude_n = node.number("amplitude_n", kForceN);
+    edge.phase_rad = node.number("phase_rad", kPhaseRad);
+    out.push_back(edge);
+  }
+  return out;
+}
+
+mechanics::Limits read_limits(const Located& limits) {
+  mechanics::Limits out;
+  out.tension_min_n = limits.optional_number("tension_min_n", kPositiveForceN);
+  out.tension_max_n = limits.optional_number("tension_max_n", kPositiveForceN);
+  out.length_min_m = limits.optional_number("length_min_m", kLengthM);
+  out.length_max_m = limits.optional_number("length_max_m", kLengthM);
+  out.winch_rate_max_m_s = limits.optional_number("winch_rate_max_m_s", kSpeed);
+  out.speed_min_m_s = limits.optional_number("speed_min_m_s", kSpeed);
+  out.speed_max_m_s = limits.optional_number("speed_max_m_s", kSpeed);
+  out.acceleration_max_m_s2 = limits.optional_number("acceleration_max_m_s2", kAcceleration);
+  out.separation_min_m = limits.optional_number("separation_min_m", kLengthM);
+  out.vertical_cosine_min = limits.optional_number("vertical_cosine_min", kCosine);
+
+  const auto judge_order = [&](const char* min_field, const std::optional<double>& min, const char* max_field,
+                               const std::optional<double>& max) {
+    if (!min || !max || *min <= *max) return;
+    limits.complain(min_field, "is " + show(*min) + ", above " + max_field + ", " + show(*max) +
+                                   "; nothing can be inside: raise the one or lower the other");
+  };
+  judge_order("tension_min_n", out.tension_min_n, "tension_max_n", out.tension_max_n);
+  judge_order("length_min_m", out.length_min_m, "length_max_m", out.length_max_m);
+  judge_order("speed_min_m_s", out.speed_min_m_s, "speed_max_m_s", out.speed_max_m_s);
+  return out;
+}
+
+mechanics::Plan read_plan(const Located& root) {
+  mechanics::Plan plan;
+  plan.load = read_load(root.required_child("load", "a mission has load { mass_kg: .. inertia_kg_m2 { .. } .. }"));
+  plan.gravity_m_s2 = root.number("gravity_m_s2", kGravity, plan.gravity_m_s2);
+  const Located cable = root.child("cable");
+  plan.cable.stiffness_n_m = cable.number("stiffness_n_m", kStiffness, 1e4);
+  plan.cable.damping_n_s_m = cable.number("damping_n_s_m", kDamping, 1e3);
+  plan.cable.compensate_stretch = cable.flag("compensate_stretch", true);
+  plan.limits = read_limits(root.child("limits"));
+
+  const Located cycle = root.required_child("cycle", "a mission has cycle { rate_rad_s: .. edge { .. } .. }");
+  plan.cycle.rate_rad_s = root.has("cycle") ? cycle.number("rate_rad_s", kRate) : 1.0;
+
+  const auto too_many = [](const Located& place, const char* field) {
+    if (place.count(field) <= static_cast<int>(kMaxCarrierId)) return false;
+    place.complain(field, "there are " + std::to_string(place.count(field)) + "; a mission has at most " +
+                              std::to_string(kMaxCarrierId));
+    return true;
+  };
+  if (too_many(root, "carrier") || too_many(cycle, "edge")) return plan;
+  if (root.count("carrier") == 0) {
+    root.complain("carrier", "is missing; a mission has at least one carrier { id: .. attachment_m { .. } .. }");
+    return plan;
+  }
+  plan.carriers = read_carriers(root.children("carrier"), plan.cycle.rate_rad_s);
+  if (!root.has("cycle")) return plan;
+  const std::vector<Located> edges = cycle.children("edge");
+  plan.cycle.edges = read_edges(edges);
+  judge_cycle(plan, {cycle, edges});
+  return plan;
+}
+
+Simulation read_simulation(const Located& simulation) {
+  Simulation out;
+  out.carrier_time_constant_s = simulation.optional_number("carrier_time_constant_s", kTimeConstantS);
+  if (!simulation.has("wind")) return out;
+  const Located node = simulation.child("wind");
+  Wind wind;
+  wind.force_w_n = node.vector("force_n", kForceN);
+  wind.gust_n = node.number("gust_n", kPositiveForceN, 0.0);
+  wind.gust_time_s = node.number("gust_time_s", kGustTimeS, wind.gust_time_s);
+  out.wind = wind;
+  return out;
+}
+
+std::string read_name(const Located& root, const std::string& name) {
+  const bool printable = std::all_of(name.begin(), name.end(), [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte >= 0x20 && byte != 0x7f;
+  });
+  if (!name.empty() && name.size() <= kMaxNameBytes && printable) return name;
+  root.complain(
+      "name", "is empty, longer than " + std::to_string(kMaxNameBytes) + " bytes or not printable; give a short name");
+  return {};
+}
+
+/// Judges every field, so that all complaints come at once; the mission is worth nothing if there are any.
+Mission read_mission(const pb::Mission& message, const Located& root) {
+  Mission mission;
+  if (message.has_name()) mission.name = read_name(root, message.name());
+  mission.plan = read_plan(root);
+  const Located winch = root.child("winch");
+  mission.winch.time_constant_s = winch.optional_number("time_constant_s", kTimeConstantS);
+  mission.winch.rate_max_m_s = winch.optional_number("rate_max_m_s", kSpeed);
+  mission.simulation = read_simulation(root.child("simulation"));
+  if (mission.simulation.wind) mission.simulation.wind->seed = message.simulation().wind().seed();
+  mission.transition_duration_s = root.child("transition").optional_number("duration_s", kDurationS);
+  mission.agent_loss = message.agent_loss() == pb::CONTINUE ? AgentLoss::kContinue : AgentLoss::kFreeze;
+  const Located limits = root.child("limits");
+  LoadTolerance& tolerance = mission.load_tolerance;
+  tolerance.displacement_max_m = limits.number("load_displacement_max_m", kLengthM, tolerance.displacement_max_m);
+  tolerance.rotation_max_deg = limits.number("load_rotation_max_deg", kRotationDeg, tolerance.rotation_max_deg);
+  return mission;
+}
+
+/// What no parser needs to look at.
+const char* unreadable(const std::string& text) {
+  if (text.size() > kMaxMissionBytes)
+    return "is larger than 1 MiB; a mission of a hundred carriers takes a few kilobytes";
+  if (text.find('\0') != std::string::npos)
+    return "is not text; give a mission in Protobuf text format, as deploy/missions has";
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    return "is empty; a mission has at least load, carrier and cycle, as in deploy/missions";
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+Result<Mission> parse_mission(const std::string& text, const std::string& source_name) {
+  Complaints complaints(source_name);
+  if (const char* why = unreadable(text)) {
+    complaints.add(-1, -1, "", why);
+    return complaints.error();
+  }
+  pb::Mission message;
+  Located::Locations locations;
+  ParseErrors errors(complaints);
+  google::protobuf::TextFormat::Parser parser;
+  parser.RecordErrorsTo(&errors);
+  parser.WriteLocationsTo(&locations);
+  parser.AllowUnknownField(true);  // reported, see ParseErrors; the parser would stop at the first one otherwise
+  if (!parser.ParseFromString(text, &message)) {
+    if (complaints.none()) complaints.add(-1, -1, "", "is not a mission in Protobuf text format");
+    return complaints.error();
+  }
+  Mission mission = read_mission(message, Located(message, locations, complaints));
+  if (!complaints.none()) return complaints.error();
+  return mission;
+}
+
+}  // namespace gyre::mission

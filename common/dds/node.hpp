@@ -24,7 +24,8 @@ namespace gyre::dds {
 /// Participant ids of the hubs of the star.
 enum class Hub { kCoordinator = 0, kStandby = 1, kSimulator = 2, kGround = 3 };
 
-/// Who this process is in the star: a hub, an agent (id 3 + carrier), or a visitor (a short-lived tool at any free id).
+/// Who this process is in the star: a hub, an agent (id 3 + carrier), or, with neither, a visitor: a tool at any free
+/// id above the agents, which looks for all of them.
 struct Seat {
   std::optional<Hub> hub;
   std::optional<CarrierId> carrier;
@@ -37,7 +38,11 @@ struct NodeOptions {
   std::vector<std::string> peers;       ///< further hosts (IPv4) where hubs may sit; the own interface is always one
 };
 
-/// --domain, else ROS_DOMAIN_ID, else 0. An error names the source and the allowed range 0..100.
+/// The highest domain whose ports stay below the range the system hands out (32768 upwards).
+inline constexpr int kMaxDomain = 100;
+
+/// The given one (--domain or GYRE_DOMAIN), else ROS_DOMAIN_ID, else 0. An error names the source and the allowed
+/// range.
 [[nodiscard]] Result<int> choose_domain(std::optional<int> option);
 
 class Node;
@@ -46,8 +51,11 @@ template <class Message>
 class Writer {
  public:
   Writer() = default;
-  /// Never blocks for long and never throws; a message that cannot be sent is counted by the node.
+  /// Never blocks for long and never throws; a message that cannot be sent is counted by the node. One thread writes.
+  /// After its node is gone, a writer does nothing.
   void write(const Message& message) const;
+  /// How many readers it has found. For tools that send once and leave; a flight needs no such question.
+  [[nodiscard]] int readers() const;
 
   struct State;
   explicit Writer(std::shared_ptr<State> state) : state_(std::move(state)) {}
@@ -58,8 +66,8 @@ class Writer {
 
 class Node {
  public:
-  /// Fails when the seat is taken (the error names the process that has it), the domain is out of range, or the
-  /// interface does not exist.
+  /// Fails when the seat is taken (the error names the process that has it) or does not exist, the domain is out of
+  /// range, the interface does not exist, or another program has the ports. One node per process, save in tests.
   [[nodiscard]] static Result<std::unique_ptr<Node>> open(const NodeOptions& options);
   ~Node();
   Node(const Node&) = delete;

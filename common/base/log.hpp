@@ -1,0 +1,15 @@
+#pragma once
+// How a program speaks to its operator: one line per event on stderr, with time, program and level. For mains only;
+// cores return what happened and are silent.
+
+#include <string>
+
+#include "common/base/result.hpp"
+
+namespace gyre {
+
+/// Makes spdlog's default logger write "[12:34:56.789] [gyre-agent 3] [info] text" to stderr. `level` is trace, debug,
+/// info, warning, error or off; anything else is an error that lists them. Returns the level.
+[[nodiscard]] Result<std::string> start_log(const std::string& process_name, const std::string& level);
+
+}  // namespace gyre

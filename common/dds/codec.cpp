@@ -1,0 +1,262 @@
+#include "common/dds/codec.hpp"
+
+#include "common/dds/wire_fields.hpp"
+
+namespace gyre::dds {
+
+namespace idl = fast::idl;
+
+// The bounds of gyre_msgs.idl, which has to repeat the protocol's as literals.
+static_assert(protocol::kMaxTransitions == 4 && protocol::kMaxPlans == 5, "the sequences of gyre_msgs.idl");
+static_assert(protocol::kMaxTextBytes == 255 && protocol::kMaxMissionBytes == 32768, "the strings of gyre_msgs.idl");
+
+std::string fitting_text(const std::string& text, std::size_t bytes) {
+  std::size_t end = text.find('\0');
+  if (end == std::string::npos) end = text.size();
+  if (end > bytes) {
+    end = bytes;
+    // Bytes 10xxxxxx continue a character; at most three do, so text that is no UTF-8 loses no more than that.
+    const auto continues = [&](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U; };
+    for (int step = 0; step < 3 && end > 0 && continues(end); ++step) --end;
+  }
+  return text.substr(0, end);
+}
+
+std::optional<idl::Beacon> encode(const protocol::Beacon& message) {
+  const auto course = to_wire(message.course);
+  if (!course) return std::nullopt;
+  idl::Beacon wire;
+  wire.term(message.term);
+  wire.sequence_number(message.sequence);
+  wire.swarm_time_ns(ns(message.swarm_time));
+  wire.course(*course);
+  return wire;
+}
+
+std::optional<protocol::Beacon> decode(const idl::Beacon& wire) {
+  const auto course = from_wire(wire.course());
+  if (!course) return std::nullopt;
+  return protocol::Beacon{wire.term(), wire.sequence_number(), swarm(wire.swarm_time_ns()), *course};
+}
+
+std::optional<idl::PlanOffer> encode(const protocol::PlanOffer& message) {
+  if (message.slices.size() > protocol::kMaxPlans) return std::nullopt;
+  idl::PlanOffer wire;
+  wire.carrier(message.carrier);
+  wire.term(message.term);
+  for (const protocol::NumberedSlice& numbered : message.slices) {
+    idl::NumberedSlice& entry = wire.slices().emplace_back();
+    entry.number(to_wire(numbered.number));
+    entry.slice(to_wire(numbered.slice));
+  }
+  return wire;
+}
+
+std::optional<protocol::PlanOffer> decode(const idl::PlanOffer& wire) {
+  if (wire.slices().size() > protocol::kMaxPlans) return std::nullopt;
+  protocol::PlanOffer message{wire.carrier(), wire.term(), {}};
+  for (const idl::NumberedSlice& entry : wire.slices()) {
+    const auto slice = from_wire(entry.slice());
+    if (!slice) return std::nullopt;
+    message.slices.push_back({from_wire(entry.number()), *slice});
+  }
+  return message;
+}
+
+std::optional<idl::TimeRequest> encode(const protocol::TimeRequest& message) {
+  idl::TimeRequest wire;
+  wire.carrier(message.carrier);
+  wire.incarnation(message.incarnation);
+  wire.sequence_number(message.sequence);
+  wire.local_sent_ns(ns(message.sent));
+  return wire;
+}
+
+std::optional<protocol::TimeRequest> decode(const idl::TimeRequest& wire) {
+  return protocol::TimeRequest{wire.carrier(), wire.incarnation(), wire.sequence_number(), local(wire.local_sent_ns())};
+}
+
+std::optional<idl::TimeReply> encode(const protocol::TimeReply& message) {
+  idl::TimeReply wire;
+  wire.carrier(message.carrier);
+  wire.incarnation(message.incarnation);
+  wire.sequence_number(message.sequence);
+  wire.term(message.term);
+  wire.local_request_sent_ns(ns(message.request_sent));
+  wire.swarm_request_received_ns(ns(message.request_received));
+  wire.swarm_reply_sent_ns(ns(message.reply_sent));
+  return wire;
+}
+
+std::optional<protocol::TimeReply> decode(const idl::TimeReply& wire) {
+  return protocol::TimeReply{wire.carrier(),
+                             wire.incarnation(),
+                             wire.sequence_number(),
+                             wire.term(),
+                             local(wire.local_request_sent_ns()),
+                             swarm(wire.swarm_request_received_ns()),
+                             swarm(wire.swarm_reply_sent_ns())};
+}
+
+std::optional<idl::AgentStatus> encode(const protocol::AgentStatus& message) {
+  const auto course = to_wire(message.course);
+  if (!course || message.accepted.size() > protocol::kMaxPlans) return std::nullopt;
+  idl::AgentStatus wire;
+  wire.carrier(message.carrier);
+  wire.incarnation(message.incarnation);
+  wire.sequence_number(message.sequence);
+  wire.term(message.term);
+  wire.state(static_cast<std::uint8_t>(message.state));
+  wire.swarm_time_ns(ns(message.swarm_time));
+  wire.clock_uncertainty_ns(message.clock_uncertainty.count());
+  wire.clock_drift_ppm(message.clock_drift_ppm);
+  wire.course(*course);
+  wire.confirmed(message.confirmed);
+  for (const protocol::PlanNumber& number : message.accepted) wire.accepted().push_back(to_wire(number));
+  wire.refused(to_wire(message.refused));
+  wire.refusal(fitting_text(message.refusal, protocol::kMaxTextBytes));
+  wire.beacons_received(message.beacons_received);
+  wire.beacons_missed(message.beacons_missed);
+  wire.dropped(to_wire(message.dropped));
+  return wire;
+}
+
+std::optional<protocol::AgentStatus> decode(const idl::AgentStatus& wire) {
+  const auto state = enumerator(wire.state(), protocol::AgentState::kWaiting, protocol::AgentState::kAlone);
+  const auto course = from_wire(wire.course());
+  if (!state || !course || wire.accepted().size() > protocol::kMaxPlans) return std::nullopt;
+  protocol::AgentStatus message;
+  message.carrier = wire.carrier();
+  message.incarnation = wire.incarnation();
+  message.sequence = wire.sequence_number();
+  message.term = wire.term();
+  message.state = *state;
+  message.swarm_time = swarm(wire.swarm_time_ns());
+  message.clock_uncertainty = Duration(wire.clock_uncertainty_ns());
+  message.clock_drift_ppm = wire.clock_drift_ppm();
+  message.course = *course;
+  message.confirmed = wire.confirmed();
+  for (const idl::PlanNumber& number : wire.accepted()) message.accepted.push_back(from_wire(number));
+  message.refused = from_wire(wire.refused());
+  message.refusal = wire.refusal().to_string();
+  message.beacons_received = wire.beacons_received();
+  message.beacons_missed = wire.beacons_missed();
+  message.dropped = from_wire(wire.dropped());
+  return message;
+}
+
+std::optional<idl::CarrierSetpoint> encode(const protocol::Setpoint& message) {
+  idl::CarrierSetpoint wire;
+  wire.carrier(message.carrier);
+  wire.sequence_number(message.sequence);
+  wire.swarm_time_ns(ns(message.swarm_time));
+  wire.position_w_m(numbers(message.position_w_m));
+  wire.velocity_w_m_s(numbers(message.velocity_w_m_s));
+  wire.acceleration_w_m_s2(numbers(message.acceleration_w_m_s2));
+  wire.direction_w(numbers(message.direction_w));
+  wire.tension_n(message.tension_n);
+  wire.cable_length_m(message.cable_length_m);
+  wire.winch_length_m(message.winch_length_m);
+  wire.winch_rate_m_s(message.winch_rate_m_s);
+  wire.winch_acceleration_m_s2(message.winch_acceleration_m_s2);
+  return wire;
+}
+
+std::optional<protocol::Setpoint> decode(const idl::CarrierSetpoint& wire) {
+  protocol::Setpoint message;
+  message.carrier = wire.carrier();
+  message.sequence = wire.sequence_number();
+  message.swarm_time = swarm(wire.swarm_time_ns());
+  message.position_w_m = vector(wire.position_w_m());
+  message.velocity_w_m_s = vector(wire.velocity_w_m_s());
+  message.acceleration_w_m_s2 = vector(wire.acceleration_w_m_s2());
+  message.direction_w = vector(wire.direction_w());
+  message.tension_n = wire.tension_n();
+  message.cable_length_m = wire.cable_length_m();
+  message.winch_length_m = wire.winch_length_m();
+  message.winch_rate_m_s = wire.winch_rate_m_s();
+  message.winch_acceleration_m_s2 = wire.winch_acceleration_m_s2();
+  return message;
+}
+
+std::optional<idl::CarrierState> encode(const protocol::CarrierState& message) {
+  idl::CarrierState wire;
+  wire.carrier(message.carrier);
+  wire.sequence_number(message.sequence);
+  wire.local_stamp_ns(ns(message.stamp));
+  wire.position_w_m(numbers(message.position_w_m));
+  wire.velocity_w_m_s(numbers(message.velocity_w_m_s));
+  wire.tension_n(message.tension_n);
+  wire.cable_length_m(message.cable_length_m);
+  wire.winch_length_m(message.winch_length_m);
+  wire.winch_rate_m_s(message.winch_rate_m_s);
+  return wire;
+}
+
+std::optional<protocol::CarrierState> decode(const idl::CarrierState& wire) {
+  protocol::CarrierState message;
+  message.carrier = wire.carrier();
+  message.sequence = wire.sequence_number();
+  message.stamp = local(wire.local_stamp_ns());
+  message.position_w_m = vector(wire.position_w_m());
+  message.velocity_w_m_s = vector(wire.velocity_w_m_s());
+  message.tension_n = wire.tension_n();
+  message.cable_length_m = wire.cable_length_m();
+  message.winch_length_m = wire.winch_length_m();
+  message.winch_rate_m_s = wire.winch_rate_m_s();
+  return message;
+}
+
+std::optional<idl::LoadState> encode(const protocol::LoadState& message) {
+  const Eigen::Quaterniond& q = message.orientation_w_b;
+  idl::LoadState wire;
+  wire.sequence_number(message.sequence);
+  wire.local_stamp_ns(ns(message.stamp));
+  wire.position_w_m(numbers(message.position_w_m));
+  wire.velocity_w_m_s(numbers(message.velocity_w_m_s));
+  wire.orientation_w_b_xyzw({q.x(), q.y(), q.z(), q.w()});
+  wire.angular_velocity_b_rad_s(numbers(message.angular_velocity_b_rad_s));
+  return wire;
+}
+
+std::optional<protocol::LoadState> decode(const idl::LoadState& wire) {
+  const std::array<double, 4>& xyzw = wire.orientation_w_b_xyzw();
+  protocol::LoadState message;
+  message.sequence = wire.sequence_number();
+  message.stamp = local(wire.local_stamp_ns());
+  message.position_w_m = vector(wire.position_w_m());
+  message.velocity_w_m_s = vector(wire.velocity_w_m_s());
+  message.orientation_w_b = Eigen::Quaterniond(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+  message.angular_velocity_b_rad_s = vector(wire.angular_velocity_b_rad_s());
+  return message;
+}
+
+std::optional<idl::Command> encode(const protocol::Command& message) {
+  // A mission cut short would be another mission.
+  if (message.mission != fitting_text(message.mission, protocol::kMaxMissionBytes)) return std::nullopt;
+  idl::Command wire;
+  wire.id(message.id);
+  wire.kind(static_cast<std::uint8_t>(message.kind));
+  wire.mission(message.mission);
+  return wire;
+}
+
+std::optional<protocol::Command> decode(const idl::Command& wire) {
+  const auto kind = enumerator(wire.kind(), protocol::CommandKind::kEngage, protocol::CommandKind::kRetune);
+  if (!kind) return std::nullopt;
+  return protocol::Command{wire.id(), *kind, wire.mission().to_string()};
+}
+
+std::optional<idl::CommandReply> encode(const protocol::CommandReply& message) {
+  idl::CommandReply wire;
+  wire.id(message.id);
+  wire.done(message.done);
+  wire.text(fitting_text(message.text, protocol::kMaxTextBytes));
+  return wire;
+}
+
+std::optional<protocol::CommandReply> decode(const idl::CommandReply& wire) {
+  return protocol::CommandReply{wire.id(), wire.done(), wire.text().to_string()};
+}
+
+}  // namespace gyre::dds

@@ -1,0 +1,189 @@
+#include "common/dds/node.hpp"
+
+#include <atomic>
+#include <map>
+#include <utility>
+
+#include "common/dds/codec.hpp"
+#include "common/dds/inbox.hpp"
+#include "common/dds/participant.hpp"
+#include "common/dds/seat_lock.hpp"
+#include "common/dds/strict_type.hpp"
+#include "common/dds/topics.hpp"
+
+namespace gyre::dds {
+namespace {
+
+using Counter = std::atomic<std::uint64_t>;
+
+/// What every Writer<Message>::State has: the node empties it when it goes.
+struct Outlet {
+  fast::api::DataWriter* writer = nullptr;
+  std::shared_ptr<Counter> unsendable;
+};
+
+template <class Message>
+class Listener final : public fast::api::DataReaderListener {
+ public:
+  Listener(std::function<void(Message, LocalTime)> handler, std::shared_ptr<Counter> undecodable)
+      : handler_(std::move(handler)), undecodable_(std::move(undecodable)) {}
+
+  void on_data_available(fast::api::DataReader* reader) override {
+    const LocalTime arrived = now();
+    fast::api::SampleInfo info;
+    while (fast::take(*reader, &sample_, info)) {
+      if (!info.valid_data) continue;
+      if (auto message = decode(sample_)) {
+        handler_(std::move(*message), arrived);
+      } else {
+        ++*undecodable_;
+      }
+    }
+  }
+
+ private:
+  const std::function<void(Message, LocalTime)> handler_;
+  const std::shared_ptr<Counter> undecodable_;
+  typename Wire<Message>::Type sample_;  // one reader, one receive thread
+};
+
+void set_reliability(fast::api::ReliabilityQosPolicy& reliability, Delivery delivery) {
+  reliability.kind = reliable(delivery) ? fast::api::RELIABLE_RELIABILITY_QOS : fast::api::BEST_EFFORT_RELIABILITY_QOS;
+  reliability.max_blocking_time = fast::Time(0, 5'000'000);
+}
+
+// What writers and readers have in common. Room for `depth` samples and no more: the defaults set a hundred aside.
+template <class Qos>
+void set_common(Qos& qos, Delivery delivery, int depth) {
+  set_reliability(qos.reliability(), delivery);
+  qos.durability().kind =
+      delivery == Delivery::kRetained ? fast::api::TRANSIENT_LOCAL_DURABILITY_QOS : fast::api::VOLATILE_DURABILITY_QOS;
+  qos.history().kind = fast::api::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = depth;
+  qos.resource_limits().max_instances = 1;
+  qos.resource_limits().max_samples_per_instance = depth;
+  qos.resource_limits().max_samples = depth;
+  qos.resource_limits().allocated_samples = 1;
+  qos.endpoint().history_memory_policy = fast::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.data_sharing().off();  // silent between users and containers
+}
+
+}  // namespace
+
+template <class Message>
+struct Writer<Message>::State : Outlet {};
+
+struct Node::Impl {
+  explicit Impl(Participant opened) : participant(std::move(opened)) {}
+  ~Impl();
+
+  template <class Message>
+  fast::api::Topic* topic(std::optional<CarrierId> carrier);
+
+  Participant participant;
+  std::shared_ptr<Counter> unsendable = std::make_shared<Counter>(0);
+  std::shared_ptr<Counter> undecodable = std::make_shared<Counter>(0);
+  std::map<std::string, fast::api::Topic*> topics;
+  std::vector<std::shared_ptr<Outlet>> outlets;
+  std::vector<fast::api::DataReader*> readers;
+  std::vector<std::unique_ptr<fast::api::DataReaderListener>> listeners;
+};
+
+Node::Impl::~Impl() {
+  for (const auto& outlet : outlets) outlet->writer = nullptr;
+  for (fast::api::DataReader* reader : readers) reader->set_listener(nullptr);
+  participant.close();  // before the listeners go: a callback may still be running in one
+}
+
+template <class Message>
+fast::api::Topic* Node::Impl::topic(std::optional<CarrierId> carrier) {
+  const Topic& description = kTopic<Message>;
+  fast::api::Topic*& known = topics[topic_name(description, carrier)];
+  if (known) return known;
+  if (participant->find_type(description.type).empty()) {
+    const fast::api::TypeSupport type(new StrictType<typename Wire<Message>::Support>(undecodable));
+    type.register_type(participant.get(), description.type);
+  }
+  known = participant->create_topic(topic_name(description, carrier), description.type, fast::api::TOPIC_QOS_DEFAULT);
+  GYRE_ENSURE(known, "Fast DDS gives a topic for a registered type");
+  return known;
+}
+
+Node::Node(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Node::~Node() = default;
+
+Result<std::unique_ptr<Node>> Node::open(const NodeOptions& options) {
+  Result<Participant> participant = Participant::open(options);
+  if (!participant) return participant.error();
+  return std::unique_ptr<Node>(new Node(std::make_unique<Impl>(std::move(participant).value())));
+}
+
+Node::Counters Node::counters() const {
+  return {*impl_->unsendable, *impl_->undecodable};
+}
+
+template <class Message>
+Writer<Message> Node::writer(std::optional<CarrierId> carrier) {
+  constexpr Delivery kDelivery = kTopic<Message>.delivery;
+  fast::api::DataWriterQos qos = impl_->participant.publisher().get_default_datawriter_qos();
+  set_common(qos, kDelivery, writer_depth(kDelivery));
+  qos.publish_mode().kind = fast::api::SYNCHRONOUS_PUBLISH_MODE;
+  // The default of 3 s makes one lost packet cost half a second.
+  qos.reliable_writer_qos().times.heartbeatPeriod = fast::Time(0, 30'000'000);
+
+  auto state = std::make_shared<typename Writer<Message>::State>();
+  state->writer = impl_->participant.publisher().create_datawriter(impl_->topic<Message>(carrier), qos);
+  state->unsendable = impl_->unsendable;
+  GYRE_ENSURE(state->writer, "Fast DDS gives a writer for our own quality of service");
+  impl_->outlets.push_back(state);
+  return Writer<Message>(std::move(state));
+}
+
+template <class Message>
+void Node::read(std::function<void(Message, LocalTime)> handler, std::optional<CarrierId> carrier) {
+  constexpr Delivery kDelivery = kTopic<Message>.delivery;
+  fast::api::DataReaderQos qos = impl_->participant.subscriber().get_default_datareader_qos();
+  set_common(qos, kDelivery, reader_depth(kDelivery));
+
+  auto listener = std::make_unique<Listener<Message>>(std::move(handler), impl_->undecodable);
+  fast::api::DataReader* reader = impl_->participant.subscriber().create_datareader(
+      impl_->topic<Message>(carrier), qos, listener.get(), fast::api::StatusMask::data_available());
+  GYRE_ENSURE(reader, "Fast DDS gives a reader for our own quality of service");
+  impl_->readers.push_back(reader);
+  impl_->listeners.push_back(std::move(listener));
+}
+
+template <class Message>
+void Writer<Message>::write(const Message& message) const {
+  if (!state_ || !state_->writer) return;
+  auto sample = encode(message);
+  if (!sample || !fast::write(*state_->writer, &*sample)) ++*state_->unsendable;
+}
+
+template <class Message>
+int Writer<Message>::readers() const {
+  if (!state_ || !state_->writer) return 0;
+  fast::api::PublicationMatchedStatus status;
+  state_->writer->get_publication_matched_status(status);
+  return status.current_count;
+}
+
+// NOLINTNEXTLINE(cppcoreguidelines-macro-usage): only a macro can spell explicit instantiations once
+#define GYRE_CARRY(Message)                                                 \
+  template class Writer<Message>;                                           \
+  template Writer<Message> Node::writer<Message>(std::optional<CarrierId>); \
+  template void Node::read<Message>(std::function<void(Message, LocalTime)>, std::optional<CarrierId>);
+
+GYRE_CARRY(protocol::Beacon)
+GYRE_CARRY(protocol::PlanOffer)
+GYRE_CARRY(protocol::TimeRequest)
+GYRE_CARRY(protocol::TimeReply)
+GYRE_CARRY(protocol::AgentStatus)
+GYRE_CARRY(protocol::Setpoint)
+GYRE_CARRY(protocol::CarrierState)
+GYRE_CARRY(protocol::LoadState)
+GYRE_CARRY(protocol::Command)
+GYRE_CARRY(protocol::CommandReply)
+#undef GYRE_CARRY
+
+}  // namespace gyre::dds

@@ -1,0 +1,39 @@
+#pragma once
+// The star's recipe: one Fast DDS participant at its seat, on one interface, without multicast and shared memory.
+
+#include "common/base/result.hpp"
+#include "common/dds/fastdds_version.hpp"
+#include "common/dds/node.hpp"
+#include "common/dds/seat_lock.hpp"
+
+namespace gyre::dds {
+
+class Participant {
+ public:
+  /// Errors as Node::open.
+  [[nodiscard]] static Result<Participant> open(const NodeOptions& options);
+
+  ~Participant() { close(); }
+  Participant(Participant&& other) noexcept;
+  Participant& operator=(Participant&&) = delete;
+  Participant(const Participant&) = delete;
+  Participant& operator=(const Participant&) = delete;
+
+  [[nodiscard]] fast::api::DomainParticipant* get() const { return participant_; }
+  fast::api::DomainParticipant* operator->() const { return participant_; }
+  [[nodiscard]] fast::api::Publisher& publisher() const { return *publisher_; }
+  [[nodiscard]] fast::api::Subscriber& subscriber() const { return *subscriber_; }
+
+  /// Deletes every entity; waits for callbacks that are running. Listeners have to live until then.
+  void close();
+
+ private:
+  Participant(SeatLock seat, fast::api::DomainParticipant* participant);
+
+  SeatLock seat_;
+  fast::api::DomainParticipant* participant_;
+  fast::api::Publisher* publisher_;
+  fast::api::Subscriber* subscriber_;
+};
+
+}  // namespace gyre::dds

@@ -1,0 +1,68 @@
+#pragma once
+// Which message travels on which topic, and how: the table of idl/README.md as code.
+//
+// A topic is either one for the swarm ("rt/gyre/phase") or one per carrier ("rt/gyre/carrier_3/setpoint"). The "rt/"
+// and the type names are ROS 2's conventions, so that its tools find the topics.
+
+#include <optional>
+#include <string>
+
+#include "common/base/ensure.hpp"
+#include "common/base/ids.hpp"
+#include "common/protocol/messages.hpp"
+
+namespace gyre::dds {
+
+enum class Delivery {
+  kNewest,    ///< best effort, keep last 1: the next one makes up for a lost one
+  kState,     ///< reliable, keep last 1: the newest arrives, older ones may be skipped
+  kRetained,  ///< reliable, keep last 1, transient local: a late joiner gets the newest too
+  kEach,      ///< reliable, volatile: every one, for whoever listens when it is sent
+};
+
+struct Topic {
+  const char* name;  ///< after "rt/gyre/", or after "rt/gyre/carrier_N/"
+  const char* type;
+  bool per_carrier;
+  Delivery delivery;
+};
+
+/// Defined for the messages of protocol/messages.hpp that travel on their own.
+template <class Message>
+inline constexpr Topic kTopic = Message::this_message_has_no_topic;
+
+// clang-format off
+template <> inline constexpr Topic kTopic<protocol::Beacon>       {"phase",         "gyre_msgs::msg::dds_::Beacon_",          false, Delivery::kNewest};
+template <> inline constexpr Topic kTopic<protocol::PlanOffer>    {"plan",          "gyre_msgs::msg::dds_::PlanOffer_",       true,  Delivery::kRetained};
+template <> inline constexpr Topic kTopic<protocol::TimeRequest>  {"time_request",  "gyre_msgs::msg::dds_::TimeRequest_",     true,  Delivery::kNewest};
+template <> inline constexpr Topic kTopic<protocol::TimeReply>    {"time_reply",    "gyre_msgs::msg::dds_::TimeReply_",       true,  Delivery::kNewest};
+template <> inline constexpr Topic kTopic<protocol::AgentStatus>  {"status",        "gyre_msgs::msg::dds_::AgentStatus_",     true,  Delivery::kState};
+template <> inline constexpr Topic kTopic<protocol::Setpoint>     {"setpoint",      "gyre_msgs::msg::dds_::CarrierSetpoint_", true,  Delivery::kNewest};
+template <> inline constexpr Topic kTopic<protocol::CarrierState> {"state",         "gyre_msgs::msg::dds_::CarrierState_",    true,  Delivery::kNewest};
+template <> inline constexpr Topic kTopic<protocol::LoadState>    {"load/state",    "gyre_msgs::msg::dds_::LoadState_",       false, Delivery::kNewest};
+template <> inline constexpr Topic kTopic<protocol::Command>      {"command",       "gyre_msgs::msg::dds_::Command_",         false, Delivery::kEach};
+template <> inline constexpr Topic kTopic<protocol::CommandReply> {"command_reply", "gyre_msgs::msg::dds_::CommandReply_",    false, Delivery::kEach};
+// clang-format on
+
+[[nodiscard]] constexpr bool reliable(Delivery delivery) {
+  return delivery != Delivery::kNewest;
+}
+
+/// How many samples a writer keeps to send again.
+[[nodiscard]] constexpr int writer_depth(Delivery delivery) {
+  return delivery == Delivery::kEach ? 16 : 1;
+}
+
+/// Room for samples that arrive back to back, before the listener has taken the first.
+[[nodiscard]] constexpr int reader_depth(Delivery delivery) {
+  return delivery == Delivery::kEach ? 16 : 4;
+}
+
+/// The full DDS name. `carrier` is there exactly for the topics that are per carrier; anything else is a bug.
+[[nodiscard]] inline std::string topic_name(const Topic& topic, std::optional<CarrierId> carrier) {
+  GYRE_ENSURE(topic.per_carrier == carrier.has_value(), "a carrier for the carrier_N topics, none for the others");
+  const std::string root = "rt/gyre/";
+  return carrier ? root + "carrier_" + std::to_string(*carrier) + "/" + topic.name : root + topic.name;
+}
+
+}  // namespace gyre::dds

@@ -1,0 +1,40 @@
+#include "simulator/core/carrier_follower.hpp"
+
+#include <cmath>
+
+#include "common/base/ensure.hpp"
+#include "simulator/core/extrapolation.hpp"
+
+namespace gyre::simulator {
+
+CarrierFollower::CarrierFollower(const Eigen::Vector3d& rest_position_w_m, std::optional<double> lag_s)
+    : lag_s_(lag_s) {
+  GYRE_ENSURE(!lag_s || *lag_s > 0.0, "a lag is positive; no lag is absent");
+  target_.position_w_m = rest_position_w_m;
+}
+
+void CarrierFollower::command(const CarrierTarget& target, double arrived_s, double now_s) {
+  const Eigen::Vector3d place = at(now_s).position_w_m;
+  target_ = target;
+  target_since_s_ = arrived_s;
+  error_w_m_ = asked(now_s).position_w_m - place;
+  error_since_s_ = now_s;
+}
+
+CarrierMotion CarrierFollower::asked(double t_s) const {
+  const ExtrapolationWeights w = extrapolate(t_s - target_since_s_);
+  return {
+      target_.position_w_m + w.by_velocity * target_.velocity_w_m_s + w.by_acceleration * target_.acceleration_w_m_s2,
+      w.rate_by_velocity * target_.velocity_w_m_s + w.rate_by_acceleration * target_.acceleration_w_m_s2};
+}
+
+CarrierMotion CarrierFollower::at(double t_s) const {
+  CarrierMotion motion = asked(t_s);
+  if (!lag_s_) return motion;
+  const Eigen::Vector3d error = std::exp(-(t_s - error_since_s_) / *lag_s_) * error_w_m_;
+  motion.position_w_m -= error;
+  motion.velocity_w_m_s += error / *lag_s_;
+  return motion;
+}
+
+}  // namespace gyre::simulator

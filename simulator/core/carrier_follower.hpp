@@ -1,0 +1,50 @@
+#pragma once
+// How a carrier realises its setpoints: exactly, or with a first-order lag whose feed-forward leaves no steady error.
+//
+//   p*(t)   what the setpoint asks for, extrapolated (extrapolation.hpp)      3   W   m
+//   p(t)    where the carrier is                                              3   W   m
+//   e       p* − p                                                            3   W   m
+//
+//   p' = p*' + e / T     so   e(t) = e(t0) exp(−(t − t0) / T): exact over any step
+//
+// A setpoint that differs from what was extrapolated moves an exact carrier there at once; a lagging one keeps its
+// place and takes the difference up as error.
+
+#include <Eigen/Core>
+#include <optional>
+
+namespace gyre::simulator {
+
+struct CarrierMotion {
+  Eigen::Vector3d position_w_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_w_m_s = Eigen::Vector3d::Zero();
+};
+
+struct CarrierTarget {
+  Eigen::Vector3d position_w_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_w_m_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d acceleration_w_m_s2 = Eigen::Vector3d::Zero();
+};
+
+class CarrierFollower {
+ public:
+  /// Rests there until the first command. An absent lag means exact.
+  CarrierFollower(const Eigen::Vector3d& rest_position_w_m, std::optional<double> lag_s);
+
+  /// From `now` on follows a target that held at `arrived` <= now.
+  void command(const CarrierTarget& target, double arrived_s, double now_s);
+
+  /// At any time since the last command.
+  [[nodiscard]] CarrierMotion at(double t_s) const;
+
+ private:
+  [[nodiscard]] CarrierMotion asked(double t_s) const;
+
+  std::optional<double> lag_s_;
+  CarrierTarget target_;
+  double target_since_s_ = 0.0;
+  Eigen::Vector3d error_w_m_ = Eigen::Vector3d::Zero();  // at error_since_s_
+  double error_since_s_ = 0.0;
+};
+
+}  // namespace gyre::simulator

@@ -1,0 +1,56 @@
+#include "simulator/core/setpoint_judge.hpp"
+
+#include <cmath>
+
+#include "simulator/core/extrapolation.hpp"
+
+namespace gyre::simulator {
+
+SetpointJudge::SetpointJudge(const mechanics::Plan& plan, double longest_rest_m)
+    : load_position_w_m_(plan.load.position_w_m), reach_m_(kReachMargin_m + kReachFactor * longest_rest_m) {
+  for (const mechanics::Carrier& carrier : plan.carriers) last_[carrier.id] = {};
+}
+
+std::optional<std::string> SetpointJudge::objection(const protocol::Setpoint& setpoint, LocalTime arrived) {
+  if (auto text = nonsense(setpoint)) {
+    ++dropped_.nonsense;
+    return text;
+  }
+  Last& last = last_.at(setpoint.carrier);
+  const bool fresh_start = !last.any || arrived - last.arrived > from_seconds(kExtrapolationHorizon_s);
+  if (!fresh_start && setpoint.swarm_time == last.swarm_time) {
+    ++dropped_.duplicate;
+    return "carrier " + std::to_string(setpoint.carrier) + ": the same setpoint twice";
+  }
+  if (!fresh_start && setpoint.swarm_time < last.swarm_time) {
+    ++dropped_.late;
+    return "carrier " + std::to_string(setpoint.carrier) + ": a setpoint older than the one being flown";
+  }
+  last = {true, setpoint.swarm_time, arrived};
+  return std::nullopt;
+}
+
+std::optional<std::string> SetpointJudge::nonsense(const protocol::Setpoint& s) const {
+  const std::string who = "setpoint for carrier " + std::to_string(s.carrier) + ": ";
+  if (last_.count(s.carrier) == 0) return who + "the mission has no such carrier";
+  const bool finite = s.position_w_m.allFinite() && s.velocity_w_m_s.allFinite() && s.acceleration_w_m_s2.allFinite() &&
+                      std::isfinite(s.winch_length_m) && std::isfinite(s.winch_rate_m_s) &&
+                      std::isfinite(s.winch_acceleration_m_s2);
+  if (!finite) return who + "a value is not a finite number";
+  if ((s.position_w_m - load_position_w_m_).norm() > reach_m_) {
+    return who + "further than " + std::to_string(reach_m_) + " m from the load";
+  }
+  if (s.winch_length_m < 0.0 || s.winch_length_m > reach_m_) {
+    return who + "winch length outside 0 to " + std::to_string(reach_m_) + " m";
+  }
+  if (s.velocity_w_m_s.norm() > kAbsurdSpeed_m_s || std::abs(s.winch_rate_m_s) > kAbsurdSpeed_m_s) {
+    return who + "faster than " + std::to_string(kAbsurdSpeed_m_s) + " m/s";
+  }
+  if (s.acceleration_w_m_s2.norm() > kAbsurdAcceleration_m_s2 ||
+      std::abs(s.winch_acceleration_m_s2) > kAbsurdAcceleration_m_s2) {
+    return who + "accelerated by more than " + std::to_string(kAbsurdAcceleration_m_s2) + " m/s2";
+  }
+  return std::nullopt;
+}
+
+}  // namespace gyre::simulator

@@ -1,0 +1,50 @@
+#pragma once
+// Whether a setpoint may be flown: finite, for a carrier there is, plausible, and newer than the last one.
+//
+// Plausible means: no further from the load than kReachFactor times the longest way from load to carrier at rest (and
+// a few metres for the smallest rigs), and no faster or harder accelerated than anything that flies with a load. The
+// bounds keep nonsense out; whether a motion is wise is the certificate's business, not the simulator's.
+//
+// Newer is judged by swarm time, which survives a restart of the agent (its sequence does not). A carrier whose last
+// accepted setpoint is older than the extrapolation horizon takes any time: the swarm may have started anew.
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "common/mechanics/plan.hpp"
+#include "common/protocol/messages.hpp"
+
+namespace gyre::simulator {
+
+inline constexpr double kReachFactor = 10.0;
+inline constexpr double kReachMargin_m = 10.0;
+inline constexpr double kAbsurdSpeed_m_s = 340.0;
+inline constexpr double kAbsurdAcceleration_m_s2 = 1000.0;
+
+class SetpointJudge {
+ public:
+  /// `longest_rest_m`: the longest way from the load's centre of mass to a carrier at rest.
+  SetpointJudge(const mechanics::Plan& plan, double longest_rest_m);
+
+  /// Absent: fly it. Otherwise why not, in words; the drop is counted.
+  [[nodiscard]] std::optional<std::string> objection(const protocol::Setpoint& setpoint, LocalTime arrived);
+
+  [[nodiscard]] const protocol::DropCounts& dropped() const { return dropped_; }
+
+ private:
+  struct Last {
+    bool any = false;
+    SwarmTime swarm_time{};
+    LocalTime arrived{};
+  };
+
+  [[nodiscard]] std::optional<std::string> nonsense(const protocol::Setpoint& setpoint) const;
+
+  std::map<CarrierId, Last> last_;
+  Eigen::Vector3d load_position_w_m_;
+  double reach_m_;
+  protocol::DropCounts dropped_;
+};
+
+}  // namespace gyre::simulator

@@ -1,0 +1,243 @@
+#include "simulator/core/simulator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "common/base/ensure.hpp"
+#include "common/mechanics/reference.hpp"
+
+namespace gyre::simulator {
+namespace {
+
+struct WaitingSetpoint {
+  LocalTime arrived;
+  protocol::Setpoint setpoint;
+};
+
+struct Vehicle {
+  CarrierId id = 0;
+  CarrierFollower follower;
+  Winch winch;
+
+  [[nodiscard]] Anchor anchor(double t_s) const {
+    const CarrierMotion carrier = follower.at(t_s);
+    const WinchMotion drum = winch.at(t_s);
+    return {carrier.position_w_m, carrier.velocity_w_m_s, drum.length_m, drum.rate_m_s};
+  }
+};
+
+/// Says at most once per kReportPeriod that something is so.
+class Reporter {
+ public:
+  [[nodiscard]] bool due(LocalTime now) {
+    if (last_ && now - *last_ < kReportPeriod) return false;
+    last_ = now;
+    return true;
+  }
+
+ private:
+  std::optional<LocalTime> last_;
+};
+
+std::optional<Error> objection(const mechanics::Plan& plan, const SimulationSettings& settings) {
+  if (!(plan.cable.stiffness_n_m > 0.0) || !(plan.cable.damping_n_s_m >= 0.0)) {
+    return Error{"cable: to simulate, stiffness_n_m has to be positive and damping_n_s_m not negative"};
+  }
+  if (settings.tick < std::chrono::microseconds(100) || settings.tick > kPublicationPeriod) {
+    return Error{"simulation: the tick has to lie between 0.1 ms and 10 ms"};
+  }
+  if (settings.carrier_lag_s && !(*settings.carrier_lag_s > 0.0)) {
+    return Error{"simulation: the carriers' time constant has to be positive; leave it out for exact carriers"};
+  }
+  if (!(settings.wind.gust_time_scale_s > 0.0) || !(settings.wind.gust_deviation_n >= 0.0)) {
+    return Error{"simulation: wind gusts need a positive time scale and a deviation that is not negative"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+struct Simulator::World {
+  World(const mechanics::Plan& plan, const SimulationSettings& settings, LocalTime start_time,
+        std::vector<Vehicle> all_vehicles, double longest_rest_m)
+      : tick(settings.tick),
+        ticks_per_publication(std::max<std::int64_t>(1, kPublicationPeriod / settings.tick)),
+        start(start_time),
+        vehicles(std::move(all_vehicles)),
+        judge(plan, longest_rest_m),
+        wind(settings.wind, settings.seed, seconds(settings.tick)),
+        integrator(
+            LoadDynamics(rigid_load(plan)),
+            {plan.load.position_w_m, Eigen::Vector3d::Zero(), plan.load.orientation_w_b, Eigen::Vector3d::Zero()}, 0.0,
+            [this](double t_s, Surroundings& out) { surroundings(t_s, out); }) {
+    for (std::size_t i = 0; i < vehicles.size(); ++i) index[vehicles[i].id] = i;
+  }
+
+  void surroundings(double t_s, Surroundings& out) const {
+    for (std::size_t i = 0; i < vehicles.size(); ++i) out.anchors[i] = vehicles[i].anchor(t_s);
+    out.force_w_n = wind.force_w_n(t_s);
+  }
+
+  [[nodiscard]] Duration simulated() const { return ticks * tick; }
+  [[nodiscard]] LocalTime time() const { return start + simulated(); }
+
+  void receive(LocalTime arrived, const protocol::Setpoint& setpoint, Outputs& out) {
+    if (auto text = judge.objection(setpoint, arrived)) {
+      latest_objection = std::move(*text);
+      unreported_drops = true;
+    } else {
+      if (waiting.size() == kMaxWaitingSetpoints) {
+        waiting.pop_front();
+        ++overrun;
+        latest_objection = "more setpoints than the simulator can take up";
+        unreported_drops = true;
+      }
+      waiting.push_back({arrived, setpoint});
+    }
+    report_drops(arrived, out);
+  }
+
+  void report_drops(LocalTime now, Outputs& out) {
+    if (!unreported_drops || !drop_reports.due(now)) return;
+    unreported_drops = false;
+    out.dropped = DropReport{judge.dropped(), latest_objection};
+    out.dropped->counts.late += overrun;
+  }
+
+  void advance(LocalTime now, Outputs& out) {
+    notice_lag(now, out);
+    for (int i = 0; i < kTicksPerAdvance && time() + tick <= now; ++i) one_tick(out, now);
+    report_drops(now, out);
+
+    const std::int64_t publication = ticks / ticks_per_publication;
+    const bool caught_up = time() + tick > now;
+    const bool long_ago = !published_at || now - *published_at >= kPublicationPeriod;
+    if (publication == published || (!caught_up && !long_ago)) return;
+    published = publication;
+    published_at = now;
+    publish(out);
+  }
+
+  void notice_lag(LocalTime now, Outputs& out) {
+    const Duration behind = now - time();
+    Duration skip{};
+    if (behind > kLongestCatchUp) {
+      skip = behind - kLongestCatchUp;
+      start += skip;
+      skipped += skip;
+    }
+    if (behind > kToleratedLag && lag_reports.due(now)) out.lag = LagReport{behind, std::exchange(skipped, Duration{})};
+  }
+
+  void one_tick(Outputs& out, LocalTime now) {
+    const double begin_s = seconds(simulated());
+    while (!waiting.empty() && waiting.front().arrived <= time()) {
+      take_up(waiting.front(), begin_s);
+      waiting.pop_front();
+    }
+    for (Vehicle& vehicle : vehicles) vehicle.winch.tick(begin_s);
+    wind.tick(begin_s);
+    ++ticks;
+    if (auto failure = integrator.advance_to(seconds(simulated()))) {
+      LoadMotion held = integrator.motion();
+      held.velocity_w_m_s.setZero();
+      held.angular_velocity_b_rad_s.setZero();
+      integrator.restart(held, seconds(simulated()));
+      if (failure_reports.due(now)) out.failure = std::move(failure);
+    }
+  }
+
+  void take_up(const WaitingSetpoint& waited, double now_s) {
+    const protocol::Setpoint& s = waited.setpoint;
+    const double arrived_s = seconds(waited.arrived - start);
+    Vehicle& vehicle = vehicles[index.at(s.carrier)];
+    vehicle.follower.command({s.position_w_m, s.velocity_w_m_s, s.acceleration_w_m_s2}, arrived_s, now_s);
+    vehicle.winch.command({s.winch_length_m, s.winch_rate_m_s, s.winch_acceleration_m_s2}, arrived_s);
+  }
+
+  void publish(Outputs& out) {
+    ++sequence;
+    const LoadMotion& load = integrator.motion();
+    for (std::size_t i = 0; i < vehicles.size(); ++i) {
+      const Anchor anchor = vehicles[i].anchor(seconds(simulated()));
+      const CablePull pull = integrator.dynamics().pull(i, load, anchor);
+      out.carriers.push_back({vehicles[i].id, sequence, time(), anchor.position_w_m, anchor.velocity_w_m_s,
+                              pull.tension_n, pull.length_m, anchor.unstretched_length_m, anchor.unstretched_rate_m_s});
+    }
+    out.load = protocol::LoadState{
+        sequence, time(), load.position_w_m, load.velocity_w_m_s, load.orientation_w_b, load.angular_velocity_b_rad_s};
+  }
+
+  Duration tick;
+  std::int64_t ticks_per_publication;
+  LocalTime start;  // of simulated time; later than the real start by what was skipped
+  std::int64_t ticks = 0;
+  std::vector<Vehicle> vehicles;
+  std::map<CarrierId, std::size_t> index;
+  SetpointJudge judge;
+  Wind wind;
+  LoadIntegrator integrator;
+  std::deque<WaitingSetpoint> waiting;
+
+  std::uint64_t sequence = 0;
+  std::int64_t published = 0;
+  std::optional<LocalTime> published_at;
+  Duration skipped{};
+  std::uint64_t overrun = 0;
+  bool unreported_drops = false;
+  std::string latest_objection;
+  Reporter lag_reports, drop_reports, failure_reports;
+};
+
+Result<Simulator> Simulator::create(const mechanics::Plan& plan, const SimulationSettings& settings, LocalTime start) {
+  if (auto error = objection(plan, settings)) return *error;
+  std::vector<Vehicle> vehicles;
+  double longest_rest_m = 0.0;
+  for (const mechanics::CarrierSlice& slice : mechanics::slices(mechanics::rest_plan(plan))) {
+    const mechanics::Reference rest = mechanics::evaluate(slice, 0.0);
+    // l0 = l − s / k: the cable, stretched by its tension, is as long as the plan has it.
+    const double unstretched_m = rest.length_m.value - rest.tension_n.value / plan.cable.stiffness_n_m;
+    if (!(unstretched_m > 0.0) || !rest.position_w_m.value.allFinite()) {
+      return Error{"carrier " + std::to_string(slice.id) + ": at rest its cable would be " +
+                   std::to_string(rest.length_m.value) + " m long under " + std::to_string(rest.tension_n.value) +
+                   " N, which is no cable to simulate; look at its length law, and at cable.stiffness_n_m"};
+    }
+    vehicles.push_back({slice.id, CarrierFollower(rest.position_w_m.value, settings.carrier_lag_s),
+                        Winch(unstretched_m, {settings.winch_time_constant_s, settings.winch_rate_limit_m_s,
+                                              seconds(settings.tick)})});
+    longest_rest_m = std::max(longest_rest_m, (rest.position_w_m.value - plan.load.position_w_m).norm());
+  }
+  return Simulator(std::make_unique<World>(plan, settings, start, std::move(vehicles), longest_rest_m));
+}
+
+Simulator::Simulator(std::unique_ptr<World> world) : world_(std::move(world)) {}
+Simulator::~Simulator() = default;
+Simulator::Simulator(Simulator&&) noexcept = default;
+Simulator& Simulator::operator=(Simulator&&) noexcept = default;
+
+Outputs Simulator::step(LocalTime now, const Event& event) {
+  Outputs out;
+  if (const auto* setpoint = std::get_if<protocol::Setpoint>(&event)) {
+    world_->receive(now, *setpoint, out);
+  } else {
+    world_->advance(now, out);
+  }
+  return out;
+}
+
+LocalTime Simulator::next_due() const {
+  const World& w = *world_;
+  return w.start + (w.published + 1) * w.ticks_per_publication * w.tick;
+}
+
+const LoadMotion& Simulator::load() const {
+  return world_->integrator.motion();
+}
+
+Duration Simulator::simulated() const {
+  return world_->simulated();
+}
+
+}  // namespace gyre::simulator

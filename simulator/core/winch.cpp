@@ -1,0 +1,46 @@
+#include "simulator/core/winch.hpp"
+
+#include <algorithm>
+
+#include "simulator/core/extrapolation.hpp"
+
+namespace gyre::simulator {
+
+Winch::Winch(double rest_length_m, const WinchSettings& settings)
+    : exact_(!settings.time_constant_s && !settings.rate_limit_m_s),
+      time_constant_s_(std::max(settings.time_constant_s.value_or(0.0), 3.0 * settings.tick_s)),
+      rate_limit_m_s_(settings.rate_limit_m_s),
+      tick_s_(settings.tick_s) {
+  target_.length_m = rest_length_m;
+  begin_.length_m = rest_length_m;
+}
+
+void Winch::command(const WinchTarget& target, double arrived_s) {
+  target_ = target;
+  target_since_s_ = arrived_s;
+}
+
+void Winch::tick(double now_s) {
+  if (exact_) return;
+  begin_ = at(now_s);
+  tick_since_s_ = now_s;
+  // r(t + h) = L*'(t + h) + (L*(t) − L(t)) / T
+  double rate = asked(now_s + tick_s_).rate_m_s + (asked(now_s).length_m - begin_.length_m) / time_constant_s_;
+  if (rate_limit_m_s_) rate = std::clamp(rate, -*rate_limit_m_s_, *rate_limit_m_s_);
+  acceleration_m_s2_ = (rate - begin_.rate_m_s) / tick_s_;
+}
+
+WinchMotion Winch::asked(double t_s) const {
+  const ExtrapolationWeights w = extrapolate(t_s - target_since_s_);
+  return {target_.length_m + w.by_velocity * target_.rate_m_s + w.by_acceleration * target_.acceleration_m_s2,
+          w.rate_by_velocity * target_.rate_m_s + w.rate_by_acceleration * target_.acceleration_m_s2};
+}
+
+WinchMotion Winch::at(double t_s) const {
+  if (exact_) return asked(t_s);
+  const double elapsed_s = t_s - tick_since_s_;
+  return {begin_.length_m + elapsed_s * (begin_.rate_m_s + 0.5 * acceleration_m_s2_ * elapsed_s),
+          begin_.rate_m_s + acceleration_m_s2_ * elapsed_s};
+}
+
+}  // namespace gyre::simulator

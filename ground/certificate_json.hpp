@@ -1,0 +1,15 @@
+#pragma once
+// A certificate for programs: the keys are a contract (DESIGN section 5), units are in them.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "common/mechanics/certificate.hpp"
+
+namespace gyre::ground {
+
+/// A figure that does not exist, or is infinite, is null.
+[[nodiscard]] nlohmann::ordered_json certificate_json(const std::string& mission_name,
+                                                      const mechanics::Certificate& certificate);
+
+}  // namespace gyre::ground

@@ -1,0 +1,263 @@
+#include "agent/core/agent.hpp"
+
+#include <algorithm>
+
+#include "common/base/text.hpp"
+#include "common/protocol/course.hpp"
+#include "common/protocol/sanity.hpp"
+
+namespace gyre::agent {
+
+using protocol::Notice;
+using protocol::Stage;
+
+namespace {
+
+MergeLimits merge_limits(const mechanics::Limits& vehicle) {
+  const MergeLimits cautious;
+  return {vehicle.speed_max_m_s.value_or(cautious.speed_m_s),
+          vehicle.acceleration_max_m_s2.value_or(cautious.acceleration_m_s2),
+          vehicle.winch_rate_max_m_s.value_or(cautious.winch_rate_m_s)};
+}
+
+/// The reference as a command: the cable is paid out short by what its tension stretches it, l0 = l − s / k.
+Command command_of(const mechanics::Reference& r, double stiffness_n_m) {
+  Command command{r.position_w_m, r.length_m};
+  if (stiffness_n_m > 0.0) command.winch_m = command.winch_m - (1.0 / stiffness_n_m) * r.tension_n;
+  return command;
+}
+
+Command command_of(const protocol::Setpoint& s) {
+  return {{s.position_w_m, s.velocity_w_m_s, s.acceleration_w_m_s2},
+          {s.winch_length_m, s.winch_rate_m_s, s.winch_acceleration_m_s2}};
+}
+
+Command command_of(const protocol::CarrierState& s) {
+  return {{s.position_w_m, s.velocity_w_m_s, Eigen::Vector3d::Zero()}, {s.winch_length_m, s.winch_rate_m_s, 0.0}};
+}
+
+}  // namespace
+
+Agent::Agent(const AgentOptions& options)
+    : options_(options),
+      clock_(options.timekeeper),
+      plans_(options.vehicle),
+      merge_(merge_limits(options.vehicle)),
+      coordinator_(options.coordinator_timeout) {}
+
+Outputs Agent::step(LocalTime now, const Event& event) {
+  Outputs out;
+  std::visit([&](const auto& e) { on(now, e, out); }, event);
+  out.next_tick = next_tick_;
+  return out;
+}
+
+std::optional<SwarmTime> Agent::swarm_time(LocalTime now) const {
+  if (!clock_.synchronised()) return std::nullopt;
+  return clock_.at(now);
+}
+
+void Agent::on(LocalTime now, const Tick& /*tick*/, Outputs& out) {
+  if (now < next_tick_) return;
+  // A stall is not made up for: the next tick is one period from now, not a burst of the missed ones.
+  next_tick_ = std::max(next_tick_ + options_.control_period, now);
+
+  if (now >= next_request_) {
+    next_request_ = now + (clock_.synchronised() ? options_.request_period : options_.request_period_at_start);
+    out.time_request = protocol::TimeRequest{options_.carrier, options_.incarnation, ++requests_, now};
+  }
+  const std::optional<SwarmTime> time = swarm_time(now);
+  if (time) {
+    protocol::settle(course_, *time);
+    if (const auto r = reference(course_, *time)) out.setpoint = setpoint(*time, *r);
+  }
+  const bool alone = coordinator_.ever_heard() && coordinator_.silent(now);
+  if (alone != alone_) {
+    alone_ = alone;
+    out.notices.push_back({alone ? Notice::Level::kWarning : Notice::Level::kInfo,
+                           alone ? "the coordinator is silent: flying on alone" : "the coordinator is back"});
+  }
+  if (now >= next_status_) out.status = status(now);
+}
+
+bool Agent::accepts_term(std::uint64_t term, Outputs& out) {
+  if (term < term_) {
+    ++dropped_.wrong_term;
+    return false;
+  }
+  if (term > term_) {
+    if (term_ != 0) {
+      out.notices.push_back({Notice::Level::kInfo,
+                             text("a new coordinator took over: term %llu", static_cast<unsigned long long>(term))});
+      // It learned swarm time from us and the others; it may be off by what we are apart.
+      clock_.doubt(std::chrono::milliseconds(1));
+    }
+    term_ = term;
+    heard_.reset();
+  }
+  return true;
+}
+
+void Agent::on(LocalTime now, const protocol::Beacon& beacon, Outputs& out) {
+  if (!sane(beacon)) {
+    ++dropped_.nonsense;
+    return;
+  }
+  if (const auto time = swarm_time(now)) {
+    const Duration age = *time - beacon.swarm_time;
+    if (age > options_.beacon_age_max || age < -options_.beacon_age_max) {
+      ++(age > Duration::zero() ? dropped_.late : dropped_.nonsense);
+      return;
+    }
+  }
+  if (!accepts_term(beacon.term, out)) return;
+  if (heard_ && beacon.sequence <= heard_->sequence) {
+    ++(beacon.sequence == heard_->sequence ? dropped_.duplicate : dropped_.late);
+    return;
+  }
+  if (heard_) beacons_missed_ += beacon.sequence - heard_->sequence - 1;
+  ++beacons_received_;
+  coordinator_.heard(now);
+  heard_ = beacon;
+  adopt(now, beacon.course, out);
+}
+
+void Agent::on(LocalTime now, const protocol::PlanOffer& offer, Outputs& out) {
+  if (!sane(offer) || offer.carrier != options_.carrier) {
+    ++dropped_.nonsense;
+    return;
+  }
+  if (!accepts_term(offer.term, out)) return;
+  const protocol::PlanNumber refused_before = plans_.refused();
+  if (!plans_.take(offer.slices, protocol::plans_of(course_))) return;
+  if (plans_.refused() != refused_before) {
+    out.notices.push_back({Notice::Level::kError, "plan refused: " + plans_.refusal()});
+  }
+  if (heard_) adopt(now, heard_->course, out);
+  out.status = status(now);  // the coordinator is waiting for this answer
+}
+
+void Agent::adopt(LocalTime now, const protocol::Course& course, Outputs& out) {
+  const std::optional<SwarmTime> time = swarm_time(now);
+  if (!time) return;
+  const bool newer = term_ > course_term_ || course.revision > course_.revision || course_.base.number.none();
+  const auto wanted = reference(course, *time);
+  if (newer && wanted) {  // all its plans are held: a course is flown whole or not at all
+    const auto current = reference(course_, *time);
+    const mechanics::CarrierSlice* slice = plans_.find(course.base.number);
+    const Command next = command_of(*wanted, slice->cable_stiffness_n_m);
+    if (current) {
+      merge_.begin(*time, merge_.apply(*time, command_of(*current, slice->cable_stiffness_n_m)), next);
+    } else if (vehicle_) {
+      merge_.begin(*time, command_of(*vehicle_), next);
+    }
+    course_ = course;
+    course_term_ = term_;
+    protocol::settle(course_, *time);
+  }
+  const std::uint64_t confirmed_before = confirmed_;
+  confirm_proposal(*time);
+  if (confirmed_ != confirmed_before) out.status = status(now);
+}
+
+void Agent::confirm_proposal(SwarmTime now) {
+  for (const protocol::Transition& t : course_.transitions) {
+    if (t.stage == Stage::kProposed && t.start > now && plans_.find(t.to.number) != nullptr) {
+      confirmed_ = std::max(confirmed_, t.id);
+    }
+  }
+}
+
+void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
+  const protocol::TimeReply& reply = event.reply;
+  if (reply.carrier != options_.carrier || reply.incarnation != options_.incarnation || reply.sequence > requests_ ||
+      event.arrived > now) {
+    ++dropped_.nonsense;
+    return;
+  }
+  if (reply.sequence <= requests_answered_) {
+    ++dropped_.duplicate;
+    return;
+  }
+  if (!accepts_term(reply.term, out)) return;
+  const bool before = clock_.synchronised();
+  const auto verdict = clock_.observe({reply.request_sent, reply.request_received, reply.reply_sent, event.arrived});
+  if (verdict != protocol::Timekeeper::Verdict::kTaken) {
+    ++dropped_.nonsense;
+    return;
+  }
+  requests_answered_ = reply.sequence;
+  if (!before && clock_.synchronised()) {
+    out.notices.push_back(
+        {Notice::Level::kInfo, text("swarm time found, uncertain by %.3f ms", 1e3 * seconds(clock_.uncertainty(now)))});
+    if (heard_) adopt(now, heard_->course, out);
+  }
+}
+
+void Agent::on(LocalTime /*now*/, const protocol::CarrierState& state, Outputs& /*out*/) {
+  if (!sane(state) || state.carrier != options_.carrier) {
+    ++dropped_.nonsense;
+    return;
+  }
+  vehicle_ = state;
+}
+
+std::optional<mechanics::Reference> Agent::reference(const protocol::Course& course, SwarmTime now) const {
+  const auto stack =
+      protocol::layers(course, now, [this](const protocol::PlanNumber& number) { return plans_.find(number); });
+  if (stack.empty()) return std::nullopt;
+  return mechanics::evaluate_course(stack.data(), stack.size(), 0.0);
+}
+
+protocol::Setpoint Agent::setpoint(SwarmTime now, const mechanics::Reference& r) {
+  const double stiffness = plans_.find(course_.base.number)->cable_stiffness_n_m;
+  const Command command = merge_.apply(now, command_of(r, stiffness));
+  protocol::Setpoint s;
+  s.carrier = options_.carrier;
+  s.sequence = ++setpoints_;
+  s.swarm_time = now;
+  s.position_w_m = command.position_w_m.value;
+  s.velocity_w_m_s = command.position_w_m.first;
+  s.acceleration_w_m_s2 = command.position_w_m.second;
+  s.direction_w = r.direction_w.value;
+  s.tension_n = r.tension_n.value;
+  s.cable_length_m = r.length_m.value;
+  s.winch_length_m = command.winch_m.value;
+  s.winch_rate_m_s = command.winch_m.first;
+  s.winch_acceleration_m_s2 = command.winch_m.second;
+  return s;
+}
+
+protocol::AgentState Agent::state(LocalTime now) const {
+  const std::optional<SwarmTime> time = swarm_time(now);
+  const mechanics::CarrierSlice* slice = plans_.find(course_.base.number);
+  if (!time || slice == nullptr) return protocol::AgentState::kWaiting;
+  if (coordinator_.silent(now)) return protocol::AgentState::kAlone;
+  return moves(*slice) || protocol::in_transition(course_, *time) ? protocol::AgentState::kFlying
+                                                                  : protocol::AgentState::kReady;
+}
+
+protocol::AgentStatus Agent::status(LocalTime now) {
+  next_status_ = now + options_.status_period;
+  protocol::AgentStatus s;
+  s.carrier = options_.carrier;
+  s.incarnation = options_.incarnation;
+  s.sequence = ++statuses_;
+  s.term = term_;
+  s.state = state(now);
+  if (const auto time = swarm_time(now)) s.swarm_time = *time;
+  s.clock_uncertainty = clock_.uncertainty(now);
+  s.clock_drift_ppm = clock_.drift_ppm();
+  s.course = course_;
+  s.confirmed = confirmed_;
+  s.accepted = plans_.accepted();
+  s.refused = plans_.refused();
+  s.refusal = plans_.refusal().substr(0, protocol::kMaxTextBytes);
+  s.beacons_received = beacons_received_;
+  s.beacons_missed = beacons_missed_;
+  s.dropped = dropped_;
+  s.dropped.nonsense += undecodable_;
+  return s;
+}
+
+}  // namespace gyre::agent

@@ -1,0 +1,103 @@
+#pragma once
+// One carrier's mind: keeps swarm time, holds its plans, and turns time into setpoints. Flies on when alone.
+//
+// step(now, event) -> outputs; it reads no clock and performs nothing. What it costs does not depend on n.
+//
+// Duties of whoever performs the outputs: send the time request first and the setpoint next, at once: both carry the
+// moment of this step. Call again at `next_tick` at the latest; a call that comes late is not made up for.
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+
+#include "agent/core/merge.hpp"
+#include "agent/core/plan_store.hpp"
+#include "common/protocol/liveness.hpp"
+#include "common/protocol/messages.hpp"
+#include "common/protocol/notice.hpp"
+#include "common/protocol/timekeeper.hpp"
+
+namespace gyre::agent {
+
+struct AgentOptions {
+  CarrierId carrier = 0;
+  std::uint64_t incarnation = 0;  ///< differs at every start
+  mechanics::Limits vehicle;      ///< what this vehicle can do
+  Duration control_period = std::chrono::milliseconds(10);
+  Duration status_period = std::chrono::milliseconds(100);
+  Duration request_period = std::chrono::milliseconds(125);
+  Duration request_period_at_start = std::chrono::milliseconds(20);
+  Duration coordinator_timeout = std::chrono::milliseconds(500);
+  Duration beacon_age_max = std::chrono::seconds(1);
+  protocol::TimekeeperOptions timekeeper;
+};
+
+struct Tick {};
+struct TimeReplyArrived {
+  protocol::TimeReply reply;
+  LocalTime arrived{};
+};
+using Event = std::variant<Tick, protocol::Beacon, protocol::PlanOffer, TimeReplyArrived, protocol::CarrierState>;
+
+struct Outputs {
+  std::optional<protocol::TimeRequest> time_request;
+  std::optional<protocol::Setpoint> setpoint;
+  std::optional<protocol::AgentStatus> status;
+  protocol::Notices notices;
+  LocalTime next_tick{};
+};
+
+class Agent {
+ public:
+  explicit Agent(const AgentOptions& options);
+
+  Outputs step(LocalTime now, const Event& event);
+
+  /// Samples that never reached the core, so that all that is dropped is counted in one place.
+  void count_undecodable(std::uint64_t total) { undecodable_ = total; }
+
+ private:
+  void on(LocalTime now, const Tick& tick, Outputs& out);
+  void on(LocalTime now, const protocol::Beacon& beacon, Outputs& out);
+  void on(LocalTime now, const protocol::PlanOffer& offer, Outputs& out);
+  void on(LocalTime now, const TimeReplyArrived& arrived, Outputs& out);
+  void on(LocalTime now, const protocol::CarrierState& state, Outputs& out);
+
+  [[nodiscard]] bool accepts_term(std::uint64_t term, Outputs& out);
+  void adopt(LocalTime now, const protocol::Course& course, Outputs& out);
+  void confirm_proposal(SwarmTime now);
+  [[nodiscard]] std::optional<mechanics::Reference> reference(const protocol::Course& course, SwarmTime now) const;
+  [[nodiscard]] protocol::Setpoint setpoint(SwarmTime now, const mechanics::Reference& reference);
+  [[nodiscard]] protocol::AgentStatus status(LocalTime now);
+  [[nodiscard]] protocol::AgentState state(LocalTime now) const;
+  [[nodiscard]] std::optional<SwarmTime> swarm_time(LocalTime now) const;
+
+  AgentOptions options_;
+  protocol::Timekeeper clock_;
+  PlanStore plans_;
+  Merge merge_;
+  protocol::Liveness coordinator_;
+
+  std::uint64_t term_ = 0;
+  std::optional<protocol::Beacon> heard_;  ///< the newest beacon of this term: what the coordinator wants
+  protocol::Course course_;                ///< what is flown
+  std::uint64_t course_term_ = 0;
+  std::uint64_t confirmed_ = 0;
+  std::optional<protocol::CarrierState> vehicle_;  ///< where the carrier really is
+
+  std::uint64_t setpoints_ = 0;
+  std::uint64_t statuses_ = 0;
+  std::uint64_t requests_ = 0;
+  std::uint64_t requests_answered_ = 0;
+  std::uint64_t beacons_received_ = 0;
+  std::uint64_t beacons_missed_ = 0;
+  std::uint64_t undecodable_ = 0;
+  protocol::DropCounts dropped_;
+
+  LocalTime next_tick_{};
+  LocalTime next_status_{};
+  LocalTime next_request_{};
+  bool alone_ = false;
+};
+
+}  // namespace gyre::agent

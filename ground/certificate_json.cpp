@@ -16,10 +16,14 @@ Json figure(const std::optional<double>& value) {
   return value ? figure(*value) : Json(nullptr);
 }
 
-Json reason_json(const mechanics::Reason& reason) {
-  return {{"rule", mechanics::name(reason.rule)},
-          {"carrier", reason.carrier ? Json(*reason.carrier) : Json(nullptr)},
-          {"text", reason.text}};
+Json reasons_json(const std::vector<mechanics::Reason>& reasons) {
+  Json out = Json::array();
+  for (const mechanics::Reason& reason : reasons) {
+    out.push_back({{"rule", mechanics::name(reason.rule)},
+                   {"carrier", reason.carrier ? Json(*reason.carrier) : Json(nullptr)},
+                   {"text", reason.text}});
+  }
+  return out;
 }
 
 Json carrier_json(const mechanics::CarrierFigures& carrier) {
@@ -43,8 +47,6 @@ Json carrier_json(const mechanics::CarrierFigures& carrier) {
 }  // namespace
 
 Json certificate_json(const std::string& mission_name, const mechanics::Certificate& certificate) {
-  Json reasons = Json::array();
-  for (const mechanics::Reason& reason : certificate.reasons) reasons.push_back(reason_json(reason));
   Json carriers = Json::array();
   for (const mechanics::CarrierFigures& carrier : certificate.carriers) carriers.push_back(carrier_json(carrier));
 
@@ -52,7 +54,8 @@ Json certificate_json(const std::string& mission_name, const mechanics::Certific
   const bool pair = std::isfinite(separation.min_m);
   return {{"name", mission_name},
           {"verdict", certificate.admissible() ? "admissible" : "refused"},
-          {"reasons", reasons},
+          {"reasons", reasons_json(certificate.reasons)},
+          {"cautions", reasons_json(certificate.cautions)},
           {"period_s", figure(certificate.period_s)},
           {"wrench_error_max_n", figure(certificate.wrench_error_max_n)},
           {"carrier_separation_min_m", figure(separation.min_m)},

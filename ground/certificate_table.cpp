@@ -114,6 +114,14 @@ std::string filled(const std::string& words, const std::string& indent) {
   return out;
 }
 
+std::string listed(const std::vector<mechanics::Reason>& reasons) {
+  std::string out;
+  for (const mechanics::Reason& reason : reasons) {
+    out += "  - " + filled(std::string(mechanics::name(reason.rule)) + ": " + reason.text, "    ") + "\n";
+  }
+  return out;
+}
+
 std::string separation_line(const Limits& limits, const Certificate& certificate) {
   const mechanics::Separation& separation = certificate.separation;
   if (!std::isfinite(separation.min_m)) return "-";
@@ -138,12 +146,8 @@ std::string certificate_table(const std::string& mission_name, const Limits& lim
   out += "  separation         " + separation_line(limits, certificate) + "\n";
   out += "  wrench error       " + text("%.2g", certificate.wrench_error_max_n) + " N at most\n";
   out += "  load stiffness     " + number(certificate.stiffness_min_1_s2) + " 1/s^2 at its softest\n";
-  if (certificate.admissible()) return out;
-
-  out += "\nWhy, and what would cure it:\n";
-  for (const mechanics::Reason& reason : certificate.reasons) {
-    out += "  - " + filled(std::string(mechanics::name(reason.rule)) + ": " + reason.text, "    ") + "\n";
-  }
+  if (!certificate.admissible()) out += "\nWhy, and what would cure it:\n" + listed(certificate.reasons);
+  if (!certificate.cautions.empty()) out += "\nNot forbidden, but look at it:\n" + listed(certificate.cautions);
   return out;
 }
 

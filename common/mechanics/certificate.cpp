@@ -6,6 +6,7 @@
 #include "common/mechanics/grasp.hpp"
 #include "common/mechanics/judgement.hpp"
 #include "common/mechanics/orbit_figures.hpp"
+#include "common/mechanics/reference.hpp"
 #include "common/mechanics/separation.hpp"
 #include "common/mechanics/stiffness.hpp"
 
@@ -33,6 +34,16 @@ double wrench_error(const Plan& plan, const std::vector<CarrierSlice>& slices) {
   return mean.norm() + std::sqrt(sine.squaredNorm() + cosine.squaredNorm());
 }
 
+Separation orbit_separation(const std::vector<CarrierSlice>& slices, const Certificate& certificate) {
+  std::vector<Path> paths;
+  for (std::size_t i = 0; i < slices.size(); ++i) {
+    const CarrierFigures& figures = certificate.carriers[i];
+    paths.push_back({figures.id, figures.speed_m_s.max, figures.acceleration_max_m_s2,
+                     [&slice = slices[i]](double t_s) { return evaluate(slice, t_s).position_w_m; }});
+  }
+  return separation(paths, 0.0, certificate.period_s);
+}
+
 }  // namespace
 
 Certificate certify(const Plan& plan, const CertifyOptions& options) {
@@ -50,14 +61,14 @@ Certificate certify(const Plan& plan, const CertifyOptions& options) {
     bounded = bounded && std::isfinite(certificate.carriers.back().acceleration_max_m_s2);
     judge_carrier(certificate.carriers.back(), plan.limits, options.non_stop, certificate.reasons);
   }
-  if (options.separation) certificate.separation = separation(all, certificate.carriers, certificate.period_s);
+  if (options.separation) certificate.separation = orbit_separation(all, certificate);
   if (options.stiffness && bounded) {
     certificate.stiffness_min_1_s2 = least_stiffness(plan, all, certificate.period_s);
     if (certificate.stiffness_min_1_s2 <= 0.0) {
-      certificate.reasons.push_back(
+      certificate.cautions.push_back(
           {Rule::kStiffness, std::nullopt,
-           "the load is not stable under these cables: its smallest stiffness is not positive, so it would tip over; "
-           "attach the cables above the centre of mass, or spread the attachments"});
+           "at some moments the cables do not pull the load back to its pose, and a disturbance grows; attach the "
+           "cables higher above the centre of mass, shorten them, or choose offsets that pull the attachments apart"});
     }
   }
   judge_formation(certificate, plan.limits, certificate.reasons);

@@ -73,6 +73,9 @@ struct Separation {
 
 struct Certificate {
   std::vector<Reason> reasons;
+  /// What breaks no rule but deserves a look. A stiffness that is negative at some moments is here: the stability of a
+  /// motion is decided over its whole period, and passing moments alone do not decide it.
+  std::vector<Reason> cautions;
   double period_s = 0.0;
   double wrench_error_max_n = 0.0;
   Separation separation;

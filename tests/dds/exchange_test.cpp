@@ -1,0 +1,253 @@
+// Real samples over real loopback sockets: every message between two nodes, and what strangers may send.
+
+#include <dirent.h>
+#include <fastrtps/xmlparser/XMLProfileManager.h>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "common/dds/inbox.hpp"
+#include "common/dds/participant.hpp"
+#include "common/dds/topics.hpp"
+#include "tests/dds/free_domain.hpp"
+#include "tests/dds/message_fields.hpp"
+
+namespace gyre {
+namespace {
+
+using namespace protocol;  // NOLINT(google-build-using-namespace): the messages are the subject
+using namespace std::chrono_literals;
+
+constexpr CarrierId kCarrier = 3;
+
+// Nodes of one process would hand samples over in memory; here they are to use the sockets, as processes do.
+class Sockets : public testing::Environment {
+ public:
+  void SetUp() override {
+    eprosima::fastrtps::LibrarySettingsAttributes settings;
+    settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
+    eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
+  }
+};
+// NOLINTNEXTLINE(cert-err58-cpp): GoogleTest takes environments at static time when it brings its own main
+const auto* const kSockets = testing::AddGlobalTestEnvironment(new Sockets);
+
+template <class Message>
+std::optional<CarrierId> carrier_of_topic() {
+  return dds::kTopic<Message>.per_carrier ? std::optional<CarrierId>(kCarrier) : std::nullopt;
+}
+
+/// Waits until `done(arrived messages)` or ten seconds are over; `again` is called every 20 ms.
+template <class Message, class Done, class Again>
+std::optional<Message> wait_for(dds::Inbox<Message>& inbox, Done done, Again again) {
+  const LocalTime deadline = dds::now() + 10s;
+  while (dds::now() < deadline) {
+    again();
+    for (Message& message : inbox.wait_until(dds::now() + 20ms)) {
+      if (done(message)) return message;
+    }
+  }
+  return std::nullopt;
+}
+
+template <class Message>
+class EveryMessage : public testing::Test {};
+
+using Messages = testing::Types<Beacon, PlanOffer, TimeRequest, TimeReply, AgentStatus, Setpoint, CarrierState,
+                                LoadState, Command, CommandReply>;
+TYPED_TEST_SUITE(EveryMessage, Messages);
+
+TYPED_TEST(EveryMessage, ArrivesBitForBit) {
+  dds::NodeOptions options;
+  dds::Inbox<TypeParam> inbox;
+  const auto sender = tests::open_coordinator(options);
+  const auto receiver = tests::open(options, {std::nullopt, kCarrier});
+  ASSERT_TRUE(sender && receiver);
+  const auto writer = sender->template writer<TypeParam>(carrier_of_topic<TypeParam>());
+  receiver->template read<TypeParam>(
+      [&](TypeParam message, LocalTime arrived) {
+        EXPECT_LE(arrived, dds::now());
+        inbox.push(std::move(message));
+      },
+      carrier_of_topic<TypeParam>());
+
+  EXPECT_TRUE(rc::check([&] {
+    const auto message = tests::random_message<TypeParam>();
+    const auto same = [&](const TypeParam& arrived) { return tests::bits_of(arrived) == tests::bits_of(message); };
+    RC_ASSERT(wait_for(inbox, same, [&] { writer.write(message); }).has_value());
+  }));
+  EXPECT_EQ(writer.readers(), 1);
+  EXPECT_EQ(sender->counters().unsendable, 0U);
+  EXPECT_EQ(receiver->counters().undecodable, 0U);
+}
+
+TEST(Plan, ReachesWhoComesLate) {
+  dds::NodeOptions options;
+  dds::Inbox<PlanOffer> inbox;
+  const auto coordinator = tests::open_coordinator(options);
+  ASSERT_TRUE(coordinator);
+  const auto writer = coordinator->writer<PlanOffer>(kCarrier);
+  writer.write({kCarrier, 1, {}});
+  writer.write({kCarrier, 2, {}});
+  const auto agent = tests::open(options, {std::nullopt, kCarrier});
+  ASSERT_TRUE(agent);
+  agent->read<PlanOffer>([&](PlanOffer offer, LocalTime) { inbox.push(std::move(offer)); }, kCarrier);
+  const auto first = wait_for(
+      inbox, [](const PlanOffer&) { return true; }, [] {});
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->term, 2U) << "the newest, and only that";
+}
+
+TEST(Visitor, FindsAnAgentWhereThereIsNoHub) {
+  dds::NodeOptions options;
+  dds::Inbox<AgentStatus> inbox;
+  tests::open_coordinator(options).reset();
+  const auto agent = tests::open(options, {std::nullopt, kMaxCarrierId});
+  const auto visitor = tests::open(options, {});
+  ASSERT_TRUE(agent && visitor);
+  const auto writer = agent->writer<AgentStatus>(kMaxCarrierId);
+  visitor->read<AgentStatus>([&](AgentStatus status, LocalTime) { inbox.push(std::move(status)); }, kMaxCarrierId);
+  EXPECT_TRUE(wait_for(
+      inbox, [](const AgentStatus&) { return true; }, [&] { writer.write({}); }));
+}
+
+TEST(Node, CountsWhatCannotBeSentAndSendsNothing) {
+  dds::NodeOptions options;
+  const auto node = tests::open_coordinator(options);
+  ASSERT_TRUE(node);
+  Beacon beacon;
+  beacon.course.transitions.resize(kMaxTransitions + 1);
+  node->writer<Beacon>().write(beacon);
+  node->writer<Command>().write({1, CommandKind::kRetune, std::string(kMaxMissionBytes + 1, 'm')});
+  EXPECT_EQ(node->counters().unsendable, 2U);
+}
+
+TEST(Node, LeavesItsWritersHarmless) {
+  dds::NodeOptions options;
+  auto node = tests::open_coordinator(options);
+  ASSERT_TRUE(node);
+  const auto writer = node->writer<Beacon>();
+  node.reset();
+  writer.write({});
+  EXPECT_EQ(writer.readers(), 0);
+  dds::Writer<Beacon>().write({});
+}
+
+/// A type support that sends whatever bytes it is given, as a stranger would under our type's name.
+class AnyBytes final : public dds::fast::api::TopicDataType {
+ public:
+  using Bytes = std::vector<unsigned char>;
+
+  AnyBytes() { m_typeSize = 1024; }
+  bool serialize(void* data, dds::fast::Payload payload) override {
+    const auto& bytes = *static_cast<const Bytes*>(data);
+    std::copy(bytes.begin(), bytes.end(), payload->data);
+    payload->length = static_cast<std::uint32_t>(bytes.size());
+    return true;
+  }
+  bool deserialize(dds::fast::Payload, void*) override { return false; }
+  std::function<std::uint32_t()> getSerializedSizeProvider(void*) override {
+    return [] { return 1024U; };
+  }
+  void* createData() override { return new Bytes; }
+  void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
+  bool getKey(void*, dds::fast::rtps::InstanceHandle_t*, bool) override { return false; }
+};
+
+TEST(Node, CountsAStrangersBytesAndGoesOnListening) {
+  dds::NodeOptions options;
+  dds::Inbox<Beacon> inbox;
+  const auto node = tests::open_coordinator(options);
+  ASSERT_TRUE(node);
+  node->read<Beacon>([&](Beacon beacon, LocalTime) { inbox.push(std::move(beacon)); });
+
+  options.seat = {dds::Hub::kGround, std::nullopt};
+  auto opened = dds::Participant::open(options);
+  ASSERT_TRUE(opened);
+  dds::Participant stranger = std::move(opened).value();
+  const dds::fast::api::TypeSupport type(new AnyBytes);
+  type.register_type(stranger.get(), dds::kTopic<Beacon>.type);
+  auto* topic = stranger->create_topic("rt/gyre/phase", dds::kTopic<Beacon>.type, dds::fast::api::TOPIC_QOS_DEFAULT);
+  dds::fast::api::DataWriterQos qos = dds::fast::api::DATAWRITER_QOS_DEFAULT;
+  qos.data_sharing().off();
+  auto* writer = stranger.publisher().create_datawriter(topic, qos);
+
+  const std::vector<AnyBytes::Bytes> nonsense = {
+      {},
+      {0},
+      {0, 1, 0, 0},
+      {9, 9, 9, 9, 1, 2, 3},                 // no encapsulation there is
+      AnyBytes::Bytes(400, 0xFF),            // a list of four thousand million transitions
+      {0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0},  // one that stops early
+  };
+  const LocalTime deadline = dds::now() + 10s;
+  while (node->counters().undecodable < 20 && dds::now() < deadline) {
+    for (AnyBytes::Bytes bytes : nonsense) static_cast<void>(dds::fast::write(*writer, &bytes));
+    EXPECT_TRUE(inbox.wait_until(dds::now() + 5ms).empty());
+  }
+  EXPECT_GE(node->counters().undecodable, 20U);
+
+  const auto agent = tests::open(options, {dds::Hub::kSimulator, std::nullopt});
+  const auto good = agent->writer<Beacon>();
+  EXPECT_TRUE(wait_for(
+      inbox, [](const Beacon& b) { return b.sequence == 42; },
+      [&] {
+        good.write({1, 42, {}, {}});
+      }));
+}
+
+/// The local addresses of this process's UDP sockets, as /proc shows them: "0100007F:1CE8".
+std::set<std::string> own_udp_addresses() {
+  std::set<std::string> inodes;
+  DIR* const directory = ::opendir("/proc/self/fd");
+  while (const dirent* entry = ::readdir(directory)) {
+    char target[64] = {};
+    const std::string path = std::string("/proc/self/fd/") + entry->d_name;
+    if (::readlink(path.c_str(), target, sizeof target - 1) <= 0) continue;
+    const std::string link = target;  // "socket:[1234]"
+    if (link.rfind("socket:[", 0) == 0) inodes.insert(link.substr(8, link.size() - 9));
+  }
+  ::closedir(directory);
+  std::set<std::string> addresses;
+  std::ifstream table("/proc/self/net/udp");
+  std::string line;
+  while (std::getline(table, line)) {
+    std::istringstream words(line);
+    std::vector<std::string> columns{std::istream_iterator<std::string>(words), {}};
+    if (columns.size() > 9 && inodes.count(columns[9]) > 0) addresses.insert(columns[1]);
+  }
+  return addresses;
+}
+
+bool discovery_group_joined() {
+  std::ifstream table("/proc/self/net/igmp");
+  const std::string text{std::istreambuf_iterator<char>(table), {}};
+  return text.find("0100FFEF") != std::string::npos;  // 239.255.0.1, as the kernel prints it
+}
+
+TEST(Node, IsOnLoopbackAloneAndJoinsNoMulticastGroup) {
+  const bool joined_before = discovery_group_joined();
+  dds::NodeOptions options;
+  const auto node = tests::open_coordinator(options);
+  ASSERT_TRUE(node);
+  node->read<Beacon>([](Beacon, LocalTime) {});
+  const auto writer = node->writer<Beacon>();
+  writer.write({});
+  EXPECT_EQ(discovery_group_joined(), joined_before);
+  const std::set<std::string> addresses = own_udp_addresses();
+  ASSERT_GE(addresses.size(), 2U) << "discovery and user data";
+  // A socket bound to 127.0.0.1 receives no multicast, whatever groups the machine is in.
+  for (const std::string& address : addresses) EXPECT_EQ(address.substr(0, 8), "0100007F") << address;
+}
+
+}  // namespace
+}  // namespace gyre

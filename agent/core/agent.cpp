@@ -27,11 +27,6 @@ Command command_of(const mechanics::Reference& r, double stiffness_n_m) {
   return command;
 }
 
-Command command_of(const protocol::Setpoint& s) {
-  return {{s.position_w_m, s.velocity_w_m_s, s.acceleration_w_m_s2},
-          {s.winch_length_m, s.winch_rate_m_s, s.winch_acceleration_m_s2}};
-}
-
 Command command_of(const protocol::CarrierState& s) {
   return {{s.position_w_m, s.velocity_w_m_s, Eigen::Vector3d::Zero()}, {s.winch_length_m, s.winch_rate_m_s, 0.0}};
 }

@@ -12,6 +12,7 @@
 
 #include "agent/core/merge.hpp"
 #include "agent/core/plan_store.hpp"
+#include "common/mechanics/reference.hpp"
 #include "common/protocol/liveness.hpp"
 #include "common/protocol/messages.hpp"
 #include "common/protocol/notice.hpp"

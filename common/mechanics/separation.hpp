@@ -9,15 +9,23 @@
 //
 // Reference: DESIGN fact 1 (where no polynomial is at hand).
 
+#include <functional>
 #include <vector>
 
-#include "common/mechanics/carrier_slice.hpp"
 #include "common/mechanics/certificate.hpp"
+#include "common/mechanics/taylor.hpp"
 
 namespace gyre::mechanics {
 
-/// `figures` in the order of `slices`. Infinite for fewer than two carriers; 0 where a carrier's motion is unbounded.
-[[nodiscard]] Separation separation(const std::vector<CarrierSlice>& slices, const std::vector<CarrierFigures>& figures,
-                                    double period_s);
+/// Where a carrier is at any time of a window, and how fast and how sharply it moves in it at most.
+struct Path {
+  CarrierId id = 0;
+  double speed_max_m_s = 0.0;
+  double acceleration_max_m_s2 = 0.0;
+  std::function<TaylorVector<double>(double t_s)> position_w_m;
+};
+
+/// Over [begin_s, end_s]. Infinite for fewer than two carriers; 0 where a carrier's motion is unbounded.
+[[nodiscard]] Separation separation(const std::vector<Path>& paths, double begin_s, double end_s);
 
 }  // namespace gyre::mechanics

@@ -1,0 +1,60 @@
+#include "coordinator/core/fleet.hpp"
+
+namespace gyre::coordinator {
+
+Fleet::Fleet(const std::vector<CarrierId>& carriers, Duration timeout) {
+  for (const CarrierId id : carriers) members_.emplace(id, Member(timeout));
+}
+
+Fleet::Verdict Fleet::take(LocalTime now, const protocol::AgentStatus& status) {
+  const auto found = members_.find(status.carrier);
+  if (found == members_.end()) return Verdict::kStranger;
+  Member& member = found->second;
+  if (member.status && member.status->incarnation == status.incarnation) {
+    if (status.sequence == member.status->sequence) return Verdict::kDuplicate;
+    if (status.sequence < member.status->sequence) return Verdict::kLate;
+  } else if (member.status) {
+    member.restarted = true;
+  }
+  member.status = status;
+  member.liveness.heard(now);
+  return Verdict::kTaken;
+}
+
+void Fleet::heard(LocalTime now, CarrierId carrier) {
+  const auto found = members_.find(carrier);
+  if (found != members_.end() && found->second.status) found->second.liveness.heard(now);
+}
+
+std::vector<Fleet::Change> Fleet::changes(LocalTime now) {
+  std::vector<Change> out;
+  for (auto& [id, member] : members_) {
+    const bool present = !member.liveness.silent(now);
+    if (present == member.known_present && !member.restarted) continue;
+    out.push_back({id, !present, member.restarted});
+    member.known_present = present;
+    member.restarted = false;
+  }
+  return out;
+}
+
+const protocol::AgentStatus* Fleet::status(CarrierId carrier) const {
+  const auto found = members_.find(carrier);
+  return found == members_.end() || !found->second.status ? nullptr : &*found->second.status;
+}
+
+bool Fleet::silent(LocalTime now, CarrierId carrier) const {
+  const auto found = members_.find(carrier);
+  return found == members_.end() || found->second.liveness.silent(now);
+}
+
+std::string list(const std::vector<CarrierId>& carriers) {
+  std::string out = carriers.size() == 1 ? "carrier " : "carriers ";
+  for (std::size_t i = 0; i < carriers.size(); ++i) {
+    if (i > 0) out += i + 1 == carriers.size() ? " and " : ", ";
+    out += std::to_string(carriers[i]);
+  }
+  return out;
+}
+
+}  // namespace gyre::coordinator

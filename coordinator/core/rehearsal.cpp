@@ -1,0 +1,37 @@
+#include "coordinator/core/rehearsal.hpp"
+
+#include "common/mechanics/judgement.hpp"
+#include "common/mechanics/separation.hpp"
+#include "common/mechanics/transition_figures.hpp"
+
+namespace gyre::coordinator {
+
+Rehearsal::Rehearsal(std::vector<std::vector<mechanics::TimedLayer>> stacks, const mechanics::Limits& limits)
+    : stacks_(std::move(stacks)), limits_(limits) {
+  const mechanics::TimedLayer& top = stacks_.front().back();
+  begin_s_ = top.start_s;
+  end_s_ = top.start_s + top.duration_s;
+}
+
+bool Rehearsal::advance() {
+  if (!reasons_.empty() || separated_) return true;
+  if (figures_.size() < stacks_.size()) {
+    figures_.push_back(mechanics::transition_figures(stacks_[figures_.size()], begin_s_, end_s_));
+    mechanics::judge_carrier(figures_.back(), limits_, false, reasons_);
+    return !reasons_.empty();
+  }
+  std::vector<mechanics::Path> paths;
+  for (std::size_t i = 0; i < stacks_.size(); ++i) {
+    paths.push_back({figures_[i].id, figures_[i].speed_m_s.max, figures_[i].acceleration_max_m_s2,
+                     [&stack = stacks_[i]](double t_s) {
+                       return mechanics::evaluate_course(stack.data(), stack.size(), t_s).position_w_m;
+                     }});
+  }
+  mechanics::Certificate formation;
+  formation.separation = mechanics::separation(paths, begin_s_, end_s_);
+  mechanics::judge_formation(formation, limits_, reasons_);
+  separated_ = true;
+  return true;
+}
+
+}  // namespace gyre::coordinator

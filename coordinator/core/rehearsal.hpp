@@ -1,0 +1,36 @@
+#pragma once
+// Before a transition is proposed, it is rehearsed: proven to keep every carrier within its limits and apart from the
+// others at every moment of it. If it does not, it is tried again, slower.
+//
+// A rehearsal is done one carrier at a time, because a proof takes tens of milliseconds and the beacon must not wait.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/mechanics/certificate.hpp"
+#include "common/mechanics/transition.hpp"
+
+namespace gyre::coordinator {
+
+class Rehearsal {
+ public:
+  /// `stacks[i]`: carrier i's layers with the transition on top, in seconds on one clock; the slices must outlive this.
+  Rehearsal(std::vector<std::vector<mechanics::TimedLayer>> stacks, const mechanics::Limits& limits);
+
+  /// One carrier's proof, or the separation of all at the end. True when nothing is left to do.
+  bool advance();
+
+  [[nodiscard]] const std::vector<mechanics::Reason>& reasons() const { return reasons_; }
+
+ private:
+  std::vector<std::vector<mechanics::TimedLayer>> stacks_;
+  mechanics::Limits limits_;
+  std::vector<mechanics::CarrierFigures> figures_;
+  std::vector<mechanics::Reason> reasons_;
+  double begin_s_ = 0.0;
+  double end_s_ = 0.0;
+  bool separated_ = false;
+};
+
+}  // namespace gyre::coordinator

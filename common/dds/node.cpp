@@ -52,7 +52,8 @@ void set_reliability(fast::api::ReliabilityQosPolicy& reliability, Delivery deli
   reliability.max_blocking_time = fast::Time(0, 5'000'000);
 }
 
-// What writers and readers have in common. Room for `depth` samples and no more: the defaults set a hundred aside.
+// What writers and readers have in common. Samples over the type's bound are refused by Fast DDS before it allocates
+// anything for them; of the others the memory for one is set aside, where the default is a hundred.
 template <class Qos>
 void set_common(Qos& qos, Delivery delivery, int depth) {
   set_reliability(qos.reliability(), delivery);
@@ -60,11 +61,8 @@ void set_common(Qos& qos, Delivery delivery, int depth) {
       delivery == Delivery::kRetained ? fast::api::TRANSIENT_LOCAL_DURABILITY_QOS : fast::api::VOLATILE_DURABILITY_QOS;
   qos.history().kind = fast::api::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = depth;
-  qos.resource_limits().max_instances = 1;
-  qos.resource_limits().max_samples_per_instance = depth;
-  qos.resource_limits().max_samples = depth;
   qos.resource_limits().allocated_samples = 1;
-  qos.endpoint().history_memory_policy = fast::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.endpoint().history_memory_policy = fast::rtps::PREALLOCATED_MEMORY_MODE;
   qos.data_sharing().off();  // silent between users and containers
 }
 

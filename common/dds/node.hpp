@@ -83,7 +83,7 @@ class Node {
 
   struct Counters {
     std::uint64_t unsendable = 0;   ///< write refused by Fast DDS or message too large
-    std::uint64_t undecodable = 0;  ///< sample arrived that is no such message
+    std::uint64_t undecodable = 0;  ///< sample arrived that is no such message; one over the type's bound Fast DDS logs
   };
   [[nodiscard]] Counters counters() const;
 

@@ -181,13 +181,18 @@ TEST(Node, CountsAStrangersBytesAndGoesOnListening) {
   qos.data_sharing().off();
   auto* writer = stranger.publisher().create_datawriter(topic, qos);
 
+  // term, sequence, time, revision, base plan: 56 bytes, then a list of four thousand million transitions.
+  AnyBytes::Bytes endless(4 + 56, 0);
+  endless[1] = 1;
+  endless.insert(endless.end(), 4, 0xFF);
   const std::vector<AnyBytes::Bytes> nonsense = {
       {},
       {0},
       {0, 1, 0, 0},
       {9, 9, 9, 9, 1, 2, 3},                 // no encapsulation there is
-      AnyBytes::Bytes(400, 0xFF),            // a list of four thousand million transitions
-      {0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0},  // one that stops early
+      {0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0},  // stops early
+      endless,
+      AnyBytes::Bytes(1000, 0xFF),  // over the type's bound: Fast DDS drops it itself
   };
   const LocalTime deadline = dds::now() + 10s;
   while (node->counters().undecodable < 20 && dds::now() < deadline) {

@@ -8,8 +8,7 @@ std::string printable(const std::string& text) {
   constexpr std::size_t kMaxShown = 400;
   std::string out;
   for (const char c : text.substr(0, kMaxShown)) {
-    const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-    out += control ? '?' : c;
+    out += c >= 0x20 && c <= 0x7e ? c : '?';
   }
   if (text.size() > kMaxShown) out += "...";
   return out;

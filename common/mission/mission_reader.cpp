@@ -9,6 +9,7 @@
 #include "common/mission/complaints.hpp"
 #include "common/mission/located.hpp"
 #include "common/mission/mission.hpp"
+#include "common/mission/nesting.hpp"
 #include "common/mission/schema_complaint.hpp"
 #include "common/mission/topology.hpp"
 #include "idl/mission.pb.h"
@@ -273,13 +274,10 @@ Simulation read_simulation(const Located& simulation) {
 }
 
 std::string read_name(const Located& root, const std::string& name) {
-  const bool printable = std::all_of(name.begin(), name.end(), [](char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    return byte >= 0x20 && byte != 0x7f;
-  });
+  const bool printable = std::all_of(name.begin(), name.end(), [](char c) { return c >= 0x20 && c <= 0x7e; });
   if (!name.empty() && name.size() <= kMaxNameBytes && printable) return name;
-  root.complain(
-      "name", "is empty, longer than " + std::to_string(kMaxNameBytes) + " bytes or not printable; give a short name");
+  root.complain("name", "is empty, longer than " + std::to_string(kMaxNameBytes) +
+                            " characters or not printable ASCII; give a short name");
   return {};
 }
 
@@ -320,6 +318,12 @@ Result<Mission> parse_mission(const std::string& text, const std::string& source
   Complaints complaints(source_name);
   if (const char* why = unreadable(text)) {
     complaints.add(-1, -1, "", why);
+    return complaints.error();
+  }
+  if (const std::optional<Place> place = too_deep(text)) {
+    complaints.add(place->line, place->column, "",
+                   "blocks inside blocks, more than " + std::to_string(kMaxDepth) +
+                       " deep; a mission needs 4: close the braces before this one");
     return complaints.error();
   }
   pb::Mission message;

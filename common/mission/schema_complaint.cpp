@@ -27,27 +27,44 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
+/// "a, b, c".
+std::string listed(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
+std::string unknown_field(const std::string& parser_message, const std::string& type_name, const std::string& field) {
+  const auto* type = schema::Mission::descriptor()->file()->pool()->FindMessageTypeByName(type_name);
+  if (type == nullptr) return parser_message;
+  std::vector<std::string> names;
+  for (int i = 0; i < type->field_count(); ++i) names.push_back(type->field(i)->name());
+  std::stable_sort(names.begin(), names.end(), [&field](const std::string& a, const std::string& b) {
+    return edit_distance(field, a) < edit_distance(field, b);
+  });
+  return field + ": no such field; the fields here are " + listed(names);
+}
+
+std::string policies() {
+  std::vector<std::string> names;
+  for (int i = 0; i < schema::AgentLoss_descriptor()->value_count(); ++i) {
+    names.push_back(schema::AgentLoss_descriptor()->value(i)->name());
+  }
+  return listed(names);
+}
+
 }  // namespace
 
 std::string with_cure(const std::string& parser_message) {
   constexpr std::size_t kMaxMessageBytes = 400;  // std::regex recurses per character
+  if (parser_message.size() > kMaxMessageBytes) return parser_message;
   static const std::regex kUnknownField(R"re(Message type "([\w.]+)" has no field named "(\w+)"\.)re");
+  static const std::regex kUnknownPolicy(R"re((Unknown enumeration value of .* for field "agent_loss")\.)re");
   std::smatch match;
-  if (parser_message.size() > kMaxMessageBytes || !std::regex_match(parser_message, match, kUnknownField)) {
-    return parser_message;
-  }
-  const auto* type = schema::Mission::descriptor()->file()->pool()->FindMessageTypeByName(match[1]);
-  if (type == nullptr) return parser_message;
-
-  std::vector<std::string> names;
-  for (int i = 0; i < type->field_count(); ++i) names.push_back(type->field(i)->name());
-  const std::string unknown = match[2];
-  std::stable_sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
-    return edit_distance(unknown, a) < edit_distance(unknown, b);
-  });
-  std::string out = unknown + ": no such field; the fields here are ";
-  for (std::size_t i = 0; i < names.size(); ++i) out += (i == 0 ? "" : ", ") + names[i];
-  return out;
+  if (std::regex_match(parser_message, match, kUnknownField)) return unknown_field(parser_message, match[1], match[2]);
+  if (std::regex_match(parser_message, match, kUnknownPolicy)) return match.str(1) + "; give one of " + policies();
+  if (parser_message == "Expected identifier, got: ") return "the file ends inside a block; close every { with a }";
+  return parser_message;
 }
 
 }  // namespace gyre::mission

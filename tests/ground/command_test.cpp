@@ -1,0 +1,120 @@
+// What the shell sees of `gyre check` and `gyre sample`: exit codes, the JSON contract, messages.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tests/ground/gyre_command.hpp"
+
+namespace gyre::test {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(Check, AdmissibleIsZero) {
+  const Answer answer = gyre("check " + shipped("paper"));
+  EXPECT_EQ(answer.exit_code, 0) << answer.complaint;
+  EXPECT_EQ(answer.output.rfind("paper: admissible\n", 0), 0u) << answer.output;
+}
+
+TEST(Check, RefusedIsOneAndSaysWhyAndWhatCures) {
+  const Answer answer = gyre("check " + shipped("pair-level"));
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_EQ(answer.output.rfind("pair-level: REFUSED", 0), 0u) << answer.output;
+  EXPECT_NE(answer.output.find("two-carrier obstruction: "), std::string::npos) << answer.output;
+  EXPECT_NE(answer.output.find("add a third"), std::string::npos) << answer.output;
+}
+
+TEST(Check, JsonKeepsItsContract) {
+  const Answer answer = gyre("check --json " + shipped("tri-mixed"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.complaint;
+  const Json json = Json::parse(answer.output);
+  EXPECT_EQ(json.at("verdict"), "admissible");
+  EXPECT_TRUE(json.at("reasons").empty());
+  for (const char* key : {"period_s", "wrench_error_max_n", "carrier_separation_min_m", "stiffness_min_1_s2"}) {
+    EXPECT_TRUE(json.at(key).is_number()) << key;
+  }
+  ASSERT_EQ(json.at("carriers").size(), 3u);
+  for (const Json& carrier : json.at("carriers")) {
+    for (const char* key : {"id", "tension_min_n", "tension_max_n", "length_min_m", "length_max_m",
+                            "winch_rate_max_m_s", "speed_min_m_s", "speed_max_m_s", "altitude_swing_m",
+                            "acceleration_max_m_s2", "altitude_min_m", "altitude_max_m", "vertical_cosine_min"}) {
+      EXPECT_TRUE(carrier.at(key).is_number()) << key;
+    }
+  }
+  EXPECT_TRUE(json["carriers"][0].at("direction_cosine_min").is_number());  // directional
+  EXPECT_TRUE(json["carriers"][1].at("direction_cosine_min").is_number());  // level
+  EXPECT_TRUE(json["carriers"][2].at("direction_cosine_min").is_null());    // fixed: projects on nothing
+}
+
+TEST(Check, JsonOfARefusedMissionGivesRulesAndCarriers) {
+  const Answer answer = gyre("check " + shipped("pair-level") + " --json");
+  EXPECT_EQ(answer.exit_code, 1);
+  const Json json = Json::parse(answer.output);
+  EXPECT_EQ(json.at("verdict"), "refused");
+  bool obstruction = false;
+  for (const Json& reason : json.at("reasons")) {
+    EXPECT_FALSE(reason.at("text").get<std::string>().empty());
+    obstruction = obstruction || (reason.at("rule") == "two-carrier obstruction" && reason.at("carrier") == 1);
+  }
+  EXPECT_TRUE(obstruction) << answer.output;
+}
+
+TEST(Check, ASingleCarrierHasNoSeparation) {
+  const Answer answer = gyre("check --json " + shipped("single"));
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_TRUE(Json::parse(answer.output).at("carrier_separation_min_m").is_null());
+}
+
+TEST(BadUsage, IsTwoWithAMessageAndNoOutput) {
+  const std::string broken_file = ::testing::TempDir() + "gyre-broken-mission";
+  std::ofstream(broken_file) << "load { mass_kg: -1 }\n";
+  const struct {
+    std::string arguments;
+    std::string complaint;
+  } kCases[] = {
+      {"", "Usage: gyre"},
+      {"chekc", "chekc"},
+      {"check", "MISSION is required"},
+      {"check --jsno " + shipped("paper"), "--jsno"},
+      {"check no-such-file", "no-such-file: no such file"},
+      {"check '" + std::string(GYRE_SOURCE_DIR) + "'", "is a directory"},
+      {"check '" + broken_file + "'", broken_file + ":1:8: load.mass_kg: is -1"},
+      {"sample '" + broken_file + "'", broken_file + ":1:8: load.mass_kg: is -1"},
+      {"sample --count 1 " + shipped("paper"), "--count"},
+      {"sample --count 1000000000000 " + shipped("paper"), "--count"},
+      {"sample --count many " + shipped("paper"), "--count"},
+  };
+  for (const auto& bad : kCases) {
+    const Answer answer = gyre(bad.arguments);
+    EXPECT_EQ(answer.exit_code, 2) << bad.arguments;
+    EXPECT_EQ(answer.output, "") << bad.arguments;
+    EXPECT_NE(answer.complaint.find(bad.complaint), std::string::npos) << bad.arguments << "\n" << answer.complaint;
+  }
+  std::filesystem::remove(broken_file);
+}
+
+TEST(Help, IsZero) {
+  for (const char* arguments : {"--help", "check --help", "sample --help"}) {
+    const Answer answer = gyre(arguments);
+    EXPECT_EQ(answer.exit_code, 0) << arguments;
+    EXPECT_NE(answer.output.find("Usage: gyre"), std::string::npos) << arguments;
+  }
+}
+
+TEST(Sample, HasOneRowPerMomentAndCarrierBelowTheHeader) {
+  const Answer answer = gyre("sample --count 7 " + shipped("hex-multirotor"));
+  EXPECT_EQ(answer.exit_code, 0) << answer.complaint;
+  EXPECT_EQ(std::count(answer.output.begin(), answer.output.end(), '\n'), 1 + 7 * 6);
+}
+
+TEST(Sample, ShowsARefusedMotionAndSaysSo) {
+  const Answer answer = gyre("sample --count 3 " + shipped("pair-level"));
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_EQ(std::count(answer.output.begin(), answer.output.end(), '\n'), 1 + 3 * 2);
+  EXPECT_NE(answer.complaint.find("is refused"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gyre::test

@@ -1,0 +1,120 @@
+// The words and the numbers of a certificate, from certificates made by hand.
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <sstream>
+
+#include "common/mechanics/reference.hpp"
+#include "common/mission/mission.hpp"
+#include "ground/certificate_json.hpp"
+#include "ground/certificate_table.hpp"
+#include "ground/motion_csv.hpp"
+
+namespace gyre::test {
+namespace {
+
+using ground::certificate_json;
+using ground::certificate_table;
+using ground::motion_csv;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+mechanics::Certificate one_bad_carrier() {
+  mechanics::CarrierFigures figures;
+  figures.id = 7;
+  figures.tension_n = {1.25, 3.5};
+  figures.length_m = {2.0, kInfinity};
+  figures.winch_rate_m_s = {-0.75, 0.5};
+  figures.speed_m_s = {0.0, kInfinity};
+  figures.acceleration_max_m_s2 = kInfinity;
+  figures.altitude_m = {4.0, 4.0};
+  figures.vertical_cosine = {0.5, 0.75};
+  mechanics::Certificate certificate;
+  certificate.period_s = 12.5;
+  certificate.carriers = {figures};
+  certificate.reasons = {{mechanics::Rule::kDirectionCosine, CarrierId{7}, "carrier 7: word " + std::string(300, 'w')}};
+  return certificate;
+}
+
+/// The line of the table that starts with these words.
+std::string line_of(const std::string& table, const std::string& start) {
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find(start) != std::string::npos) return line;
+  }
+  return {};
+}
+
+TEST(Table, VerdictFirst) {
+  mechanics::Certificate certificate = one_bad_carrier();
+  EXPECT_EQ(certificate_table("m", {}, certificate).rfind("m: REFUSED, 1 rule broken\n", 0), 0u);
+  certificate.reasons.clear();
+  EXPECT_EQ(certificate_table("m", {}, certificate).rfind("m: admissible\n", 0), 0u);
+}
+
+TEST(Table, FiguresOutsideTheirLimitsAreMarked) {
+  mechanics::Limits limits;
+  limits.tension_min_n = 1.0;
+  limits.tension_max_n = 3.0;
+  limits.winch_rate_max_m_s = 0.8;
+  limits.acceleration_max_m_s2 = 5.0;
+  limits.vertical_cosine_min = 0.6;
+  const std::string table = certificate_table("m", limits, one_bad_carrier());
+  const std::string row = line_of(table, "carrier 7");
+  EXPECT_NE(row.find("1.25 .. 3.5 !"), std::string::npos) << table;
+  EXPECT_NE(row.find("2 .. unbounded "), std::string::npos) << table;
+  EXPECT_NE(row.find("0.75 "), std::string::npos) << table;
+  EXPECT_EQ(row.find("0.75 !"), std::string::npos) << table;
+  EXPECT_NE(row.find("unbounded !"), std::string::npos) << table;
+  EXPECT_NE(row.find("0.5 !"), std::string::npos) << table;
+  const std::string limit_row = line_of(table, "limit");
+  EXPECT_NE(limit_row.find("1 .. 3"), std::string::npos) << table;
+  EXPECT_NE(limit_row.find("<= 0.8"), std::string::npos) << table;
+  EXPECT_NE(limit_row.find(">= 0.6"), std::string::npos) << table;
+}
+
+TEST(Table, EveryRuleIsNamedWithItsText) {
+  const std::string table = certificate_table("m", {}, one_bad_carrier());
+  EXPECT_NE(table.find("- direction cosine: carrier 7: word"), std::string::npos) << table;
+}
+
+TEST(Json, WhatIsInfiniteOrAbsentIsNull) {
+  const nlohmann::ordered_json json = certificate_json("m", one_bad_carrier());
+  EXPECT_EQ(json.at("verdict"), "refused");
+  EXPECT_EQ(json.at("reasons")[0].at("rule"), "direction cosine");
+  EXPECT_EQ(json.at("reasons")[0].at("carrier"), 7);
+  EXPECT_TRUE(json.at("carrier_separation_min_m").is_null());
+  const auto& carrier = json.at("carriers")[0];
+  EXPECT_EQ(carrier.at("length_min_m"), 2.0);
+  EXPECT_TRUE(carrier.at("length_max_m").is_null());
+  EXPECT_TRUE(carrier.at("speed_max_m_s").is_null());
+  EXPECT_TRUE(carrier.at("direction_cosine_min").is_null());
+  EXPECT_EQ(carrier.at("winch_rate_max_m_s"), 0.75);  // reeling in counts as much as paying out
+}
+
+TEST(Csv, NumbersReadBackToTheSameBits) {
+  const auto mission =
+      mission::read_mission_file(std::string(GYRE_SOURCE_DIR) + "/deploy/missions/tri-mixed.textproto");
+  ASSERT_TRUE(mission.ok());
+  const mechanics::Plan& plan = mission.value().plan;
+  std::istringstream lines(motion_csv(plan, 3));
+  std::string line;
+  for (int skipped = 0; skipped < 5; ++skipped)
+    std::getline(lines, line);  // header, three carriers, then t = period / 2
+  std::istringstream cells(line);
+  std::vector<double> row;
+  for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+  ASSERT_EQ(row.size(), 20u);
+  const double t_s = mechanics::period_s(plan) / 2;
+  const mechanics::Reference now = mechanics::evaluate(mechanics::slices(plan)[0], t_s);
+  EXPECT_EQ(row[0], t_s);
+  EXPECT_EQ(row[1], 1.0);
+  EXPECT_EQ(row[5], now.tension_n.value);
+  EXPECT_EQ(row[13], now.length_m.first);
+  EXPECT_EQ(row[16], now.position_w_m.value.z());
+  EXPECT_EQ(row[19], now.position_w_m.first.z());
+}
+
+}  // namespace
+}  // namespace gyre::test

@@ -1,0 +1,126 @@
+#include "ground/flight.hpp"
+
+#include <csignal>
+#include <thread>
+#include <vector>
+
+#include "common/base/interrupts.hpp"
+#include "common/base/text.hpp"
+#include "ground/flight_programs.hpp"
+
+namespace gyre::ground {
+namespace {
+
+constexpr Duration kTick = std::chrono::milliseconds(40);
+/// Beyond the transition itself: proposing it, waiting for every agent's word, ending.
+constexpr Duration kReleasePatience = std::chrono::seconds(15);
+
+std::vector<CarrierId> carrier_ids(const mission::Mission& mission) {
+  std::vector<CarrierId> ids;
+  for (const mechanics::Carrier& carrier : mission.plan.carriers) ids.push_back(carrier.id);
+  return ids;
+}
+
+}  // namespace
+
+Flight::Flight(const mission::Mission& mission, double duration_s, dds::Node& node, Supervisor& supervisor,
+               FlightDisplay& display)
+    : mission_(mission),
+      duration_s_(duration_s),
+      supervisor_(supervisor),
+      display_(display),
+      monitor_(carrier_ids(mission), dds::now()),
+      record_(mission.plan),
+      certificate_(mission.plan) {
+  listen(node);
+}
+
+void Flight::listen(dds::Node& node) {
+  const auto enqueue = [inbox = inbox_](auto message, LocalTime arrived) {
+    inbox->push({std::move(message), arrived});
+  };
+  node.read<protocol::Beacon>(enqueue);
+  node.read<protocol::LoadState>(enqueue);
+  for (const CarrierId id : carrier_ids(mission_)) {
+    node.read<protocol::AgentStatus>(enqueue, id);
+    node.read<protocol::CarrierState>(enqueue, id);
+  }
+}
+
+std::optional<FlightFailure> Flight::run() {
+  while (!released_) {
+    std::this_thread::sleep_for(kTick);
+    for (const Event& event : inbox_->wait_until(dds::now())) take(event);
+    const LocalTime now = dds::now();
+    interrupts_ += take_interrupts();
+    if (interrupts_ >= 2) return FlightFailure{"ended at once, as asked: the load was not brought to rest", {}};
+    if (const auto failure = look_after_processes()) return failure;
+
+    const bool over = interrupts_ > 0 || seconds(monitor_.flown(now)) >= duration_s_ ||
+                      monitor_.phase(now) == FlightPhase::kReleasing;
+    if (over) release(now);
+    if (!release_deadline_) {
+      if (const auto complaint = monitor_.complaint(now)) return FlightFailure{*complaint, kCoordinatorName};
+    } else if (now > *release_deadline_ && !released_) {
+      return FlightFailure{"the coordinator did not bring the load to rest in time", kCoordinatorName};
+    }
+    show(now);
+  }
+  display_.finish();
+  return std::nullopt;
+}
+
+void Flight::take(const Event& event) {
+  if (const auto* beacon = std::get_if<protocol::Beacon>(&event.message)) {
+    monitor_.see(*beacon, event.arrived);
+    certificate_.include(beacon->course);
+    record_.see_beacon();
+  } else if (const auto* status = std::get_if<protocol::AgentStatus>(&event.message)) {
+    monitor_.see(*status, event.arrived);
+    if (monitor_.under_way(event.arrived)) record_.see(*status);
+  } else if (const auto* carrier = std::get_if<protocol::CarrierState>(&event.message)) {
+    monitor_.see(*carrier, event.arrived);
+    if (monitor_.under_way(event.arrived)) {
+      record_.see(*carrier, monitor_.phase(event.arrived) == FlightPhase::kFlying);
+    }
+  } else if (const auto* load = std::get_if<protocol::LoadState>(&event.message)) {
+    if (monitor_.under_way(event.arrived)) record_.see(*load, event.arrived);
+  }
+}
+
+std::optional<FlightFailure> Flight::look_after_processes() {
+  for (const Supervisor::Ended& ended : supervisor_.collect()) {
+    const bool asked = release_deadline_.has_value() && ended.name == kCoordinatorName;
+    // Asked before it was ready for signals, it has nothing to bring to rest.
+    const bool unready = ended.end.signal == SIGTERM && !monitor_.under_way(dds::now());
+    if (!asked || !(ended.end.clean() || unready))
+      return FlightFailure{ended.name + " " + ended.end.text(), ended.name};
+    released_ = true;
+  }
+  return std::nullopt;
+}
+
+void Flight::release(LocalTime now) {
+  if (release_deadline_) return;
+  release_deadline_ = now + 2 * monitor_.transition_duration() + kReleasePatience;
+  supervisor_.send(kCoordinatorName, SIGTERM);
+}
+
+void Flight::show(LocalTime now) {
+  FlightProgress progress;
+  progress.phase = release_deadline_ && monitor_.under_way(now) ? FlightPhase::kReleasing : monitor_.phase(now);
+  progress.agents = monitor_.agents();
+  progress.agents_ready = monitor_.agents_ready();
+  progress.flown_s = seconds(monitor_.flown(now));
+  progress.duration_s = duration_s_;
+  if (record_.load().samples > 0) progress.load = record_.load();
+  display_.show(progress);
+}
+
+std::optional<FlightReport> Flight::report() const {
+  const double flown_s = seconds(monitor_.flown(dds::now()));
+  if (flown_s <= 0.0) return std::nullopt;
+  return judge_flight(mission_, certificate_, record_, flown_s);
+}
+
+}  // namespace gyre::ground

@@ -1,0 +1,70 @@
+#pragma once
+// One flight from the first process to the last: starts them, watches them, asks for the release, judges.
+//
+// The judging is in pure parts (flight_monitor, flight_record, flight_certificate, flight_report); here is the one
+// loop that feeds them and acts.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "common/dds/inbox.hpp"
+#include "common/mission/mission.hpp"
+#include "ground/flight_certificate.hpp"
+#include "ground/flight_display.hpp"
+#include "ground/flight_monitor.hpp"
+#include "ground/flight_network.hpp"
+#include "ground/flight_record.hpp"
+#include "ground/flight_report.hpp"
+#include "ground/supervisor.hpp"
+
+namespace gyre::ground {
+
+/// Why a flight ended before its time, and whose log tells more.
+struct FlightFailure {
+  std::string text;
+  std::optional<std::string> culprit;  ///< a program's name
+};
+
+class Flight {
+ public:
+  /// All of them have to outlive the flight.
+  Flight(const mission::Mission& mission, double duration_s, dds::Node& node, Supervisor& supervisor,
+         FlightDisplay& display);
+
+  /// Returns when the swarm is at rest and the coordinator has ended, or when something went wrong. The other
+  /// processes still run then.
+  [[nodiscard]] std::optional<FlightFailure> run();
+
+  /// Absent when the flight was ended before the motion was complete: there is nothing to judge.
+  [[nodiscard]] std::optional<FlightReport> report() const;
+
+ private:
+  using Message = std::variant<protocol::Beacon, protocol::AgentStatus, protocol::CarrierState, protocol::LoadState>;
+  struct Event {
+    Message message;
+    LocalTime arrived;
+  };
+  using EventInbox = dds::Inbox<Event>;
+
+  void listen(dds::Node& node);
+  void take(const Event& event);
+  [[nodiscard]] std::optional<FlightFailure> look_after_processes();
+  void release(LocalTime now);
+  void show(LocalTime now);
+
+  const mission::Mission& mission_;
+  double duration_s_;
+  Supervisor& supervisor_;
+  FlightDisplay& display_;
+  std::shared_ptr<EventInbox> inbox_ = std::make_shared<EventInbox>(std::size_t{1} << 16);
+  FlightMonitor monitor_;
+  FlightRecord record_;
+  FlightCertificate certificate_;
+  std::optional<LocalTime> release_deadline_;
+  bool released_ = false;
+  int interrupts_ = 0;
+};
+
+}  // namespace gyre::ground

@@ -8,7 +8,6 @@
 
 namespace gyre::agent {
 
-using protocol::Notice;
 using protocol::Stage;
 
 namespace {

@@ -12,10 +12,10 @@
 
 #include "agent/core/merge.hpp"
 #include "agent/core/plan_store.hpp"
+#include "common/base/notice.hpp"
 #include "common/mechanics/reference.hpp"
 #include "common/protocol/liveness.hpp"
 #include "common/protocol/messages.hpp"
-#include "common/protocol/notice.hpp"
 #include "common/protocol/timekeeper.hpp"
 
 namespace gyre::agent {
@@ -44,7 +44,7 @@ struct Outputs {
   std::optional<protocol::TimeRequest> time_request;
   std::optional<protocol::Setpoint> setpoint;
   std::optional<protocol::AgentStatus> status;
-  protocol::Notices notices;
+  Notices notices;
   LocalTime next_tick{};
 };
 

@@ -31,4 +31,20 @@ Result<std::string> start_log(const std::string& process_name, const std::string
   return Error{"log level \"" + level + "\" does not exist: trace, debug, info, warning, error or off"};
 }
 
+void log(const Notices& notices) {
+  for (const Notice& notice : notices) {
+    switch (notice.level) {
+      case Notice::Level::kInfo:
+        spdlog::info("{}", notice.text);
+        break;
+      case Notice::Level::kWarning:
+        spdlog::warn("{}", notice.text);
+        break;
+      case Notice::Level::kError:
+        spdlog::error("{}", notice.text);
+        break;
+    }
+  }
+}
+
 }  // namespace gyre

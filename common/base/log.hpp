@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "common/base/notice.hpp"
 #include "common/base/result.hpp"
 
 namespace gyre {
@@ -11,5 +12,8 @@ namespace gyre {
 /// Makes spdlog's default logger write "[12:34:56.789] [gyre-agent 3] [info] text" to stderr. `level` is trace, debug,
 /// info, warning, error or off; anything else is an error that lists them. Returns the level.
 [[nodiscard]] Result<std::string> start_log(const std::string& process_name, const std::string& level);
+
+/// What a core wants a person to know, through the default logger.
+void log(const Notices& notices);
 
 }  // namespace gyre

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace gyre::protocol {
+namespace gyre {
 
 struct Notice {
   enum class Level { kInfo, kWarning, kError };
@@ -14,4 +14,4 @@ struct Notice {
 
 using Notices = std::vector<Notice>;
 
-}  // namespace gyre::protocol
+}  // namespace gyre

@@ -1,0 +1,123 @@
+// gyre-agent --carrier N: one carrier's process. All decisions are in core/.
+
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "agent/core/agent.hpp"
+#include "agent/vehicle/vehicle_options.hpp"
+#include "common/base/interrupts.hpp"
+#include "common/base/log.hpp"
+#include "common/dds/inbox.hpp"
+#include "common/dds/network_options.hpp"
+
+namespace {
+
+using gyre::LocalTime;
+using gyre::agent::Agent;
+using gyre::agent::Event;
+using gyre::agent::Outputs;
+namespace protocol = gyre::protocol;
+
+enum ExitCode { kGood = 0, kFailed = 1, kBadUsage = 2 };
+
+/// The wire side: what the agent hears goes into the inbox, what it says goes out through the writers.
+class Wire {
+ public:
+  Wire(std::unique_ptr<gyre::dds::Node> opened, gyre::CarrierId carrier) : node_(std::move(opened)) {
+    gyre::dds::Node& node = *node_;
+    setpoint_ = node.writer<protocol::Setpoint>(carrier);
+    status_ = node.writer<protocol::AgentStatus>(carrier);
+    time_request_ = node.writer<protocol::TimeRequest>(carrier);
+    node.read<protocol::Beacon>([this](protocol::Beacon b, LocalTime) { inbox_.push(std::move(b)); });
+    node.read<protocol::PlanOffer>([this](protocol::PlanOffer p, LocalTime) { inbox_.push(std::move(p)); }, carrier);
+    node.read<protocol::TimeReply>(
+        [this](const protocol::TimeReply& r, LocalTime arrived) {
+          inbox_.push(gyre::agent::TimeReplyArrived{r, arrived});
+        },
+        carrier);
+    node.read<protocol::CarrierState>([this](const protocol::CarrierState& s, LocalTime) { inbox_.push(s); }, carrier);
+  }
+
+  [[nodiscard]] std::deque<Event> wait_until(LocalTime deadline) { return inbox_.wait_until(deadline); }
+
+  [[nodiscard]] std::uint64_t undecodable() const { return node_->counters().undecodable; }
+
+  void send(const Outputs& out) {
+    if (out.time_request) time_request_.write(*out.time_request);
+    if (out.setpoint) setpoint_.write(*out.setpoint);
+    if (out.status) status_.write(*out.status);
+  }
+
+ private:
+  gyre::dds::Inbox<Event> inbox_;  // outlives the node, whose handlers fill it
+  std::unique_ptr<gyre::dds::Node> node_;
+  gyre::dds::Writer<protocol::Setpoint> setpoint_;
+  gyre::dds::Writer<protocol::AgentStatus> status_;
+  gyre::dds::Writer<protocol::TimeRequest> time_request_;
+};
+
+int run(const gyre::agent::AgentOptions& options, const gyre::dds::NetworkOptions& network) {
+  const auto node_options = gyre::dds::node_options(network, {std::nullopt, options.carrier});
+  if (!node_options) {
+    spdlog::error("{}", node_options.error().text);
+    return kBadUsage;
+  }
+  auto node = gyre::dds::Node::open(node_options.value());
+  if (!node) {
+    spdlog::error("{}", node.error().text);
+    return kFailed;
+  }
+  Agent agent(options);
+  Wire wire(std::move(node).value(), options.carrier);
+  spdlog::info("carrier {}: waiting for a coordinator on domain {}", options.carrier, node_options.value().domain);
+
+  LocalTime next_tick = gyre::dds::now();
+  const auto step = [&](const Event& event) {
+    const Outputs out = agent.step(gyre::dds::now(), event);
+    wire.send(out);
+    gyre::log(out.notices);
+    next_tick = out.next_tick;
+  };
+  while (gyre::take_interrupts() == 0) {
+    for (const Event& event : wire.wait_until(next_tick)) step(event);
+    agent.count_undecodable(wire.undecodable());
+    step(gyre::agent::Tick{});
+  }
+  spdlog::info("carrier {}: ended on request", options.carrier);
+  return kGood;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  gyre::block_interrupts();
+  CLI::App app{"Flies one carrier: keeps swarm time, evaluates its own setpoint, refuses what it cannot fly.",
+               "gyre-agent"};
+  gyre::agent::AgentOptions options;
+  std::string log_level = "info";
+  gyre::dds::NetworkOptions network;
+  app.add_option("--carrier", options.carrier, "this carrier's id in the mission, 1 to 100")
+      ->required()
+      ->check(CLI::Range(gyre::CarrierId{1}, gyre::kMaxCarrierId))
+      ->envname("GYRE_CARRIER");
+  app.add_option("--log-level", log_level, "trace, debug, info, warning, error or off")
+      ->envname("GYRE_LOG_LEVEL")
+      ->capture_default_str();
+  gyre::agent::add_vehicle_options(app, options.vehicle);
+  gyre::dds::add_network_options(app, network);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    return app.exit(problem) == 0 ? kGood : kBadUsage;
+  }
+  if (const auto started = gyre::start_log("gyre-agent " + std::to_string(options.carrier), log_level); !started) {
+    std::fprintf(stderr, "%s\n", started.error().text.c_str());
+    return kBadUsage;
+  }
+  // The moment of the start tells one life of this agent from the next.
+  options.incarnation = static_cast<std::uint64_t>(gyre::dds::now().time_since_epoch().count());
+  return run(options, network);
+}

@@ -1,0 +1,154 @@
+// gyre-coordinator MISSION: certifies the mission, beacons the phase, agrees transitions. All decisions are in core/.
+
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <random>
+
+#include "common/base/interrupts.hpp"
+#include "common/base/log.hpp"
+#include "common/dds/inbox.hpp"
+#include "common/dds/network_options.hpp"
+#include "common/mechanics/certificate.hpp"
+#include "common/mission/mission.hpp"
+#include "coordinator/core/coordinator.hpp"
+
+namespace {
+
+using gyre::LocalTime;
+using gyre::coordinator::Coordinator;
+using gyre::coordinator::Event;
+using gyre::coordinator::Outcome;
+using gyre::coordinator::Outputs;
+namespace protocol = gyre::protocol;
+
+enum ExitCode { kGood = 0, kRefused = 1, kBadUsage = 2 };
+
+/// The wire side: what the coordinator hears goes into the inbox, what it says goes out through the writers.
+class Wire {
+ public:
+  Wire(std::unique_ptr<gyre::dds::Node> opened, const gyre::mechanics::Plan& plan) : node_(std::move(opened)) {
+    gyre::dds::Node& node = *node_;
+    beacon_ = node.writer<protocol::Beacon>();
+    replies_ = node.writer<protocol::CommandReply>();
+    for (const gyre::mechanics::Carrier& carrier : plan.carriers) {
+      time_replies_[carrier.id] = node.writer<protocol::TimeReply>(carrier.id);
+      offers_[carrier.id] = node.writer<protocol::PlanOffer>(carrier.id);
+    }
+    node.read<protocol::Beacon>([this](protocol::Beacon b, LocalTime) { inbox_.push(std::move(b)); });
+    node.read<protocol::Command>([this](protocol::Command c, LocalTime) { inbox_.push(std::move(c)); });
+    for (const gyre::mechanics::Carrier& carrier : plan.carriers) {
+      node.read<protocol::AgentStatus>([this](protocol::AgentStatus s, LocalTime) { inbox_.push(std::move(s)); },
+                                       carrier.id);
+      node.read<protocol::TimeRequest>(
+          [this](const protocol::TimeRequest& r, LocalTime arrived) {
+            inbox_.push(gyre::coordinator::TimeRequestArrived{r, arrived});
+          },
+          carrier.id);
+    }
+  }
+
+  [[nodiscard]] std::deque<Event> wait_until(LocalTime deadline) { return inbox_.wait_until(deadline); }
+
+  void send(const Outputs& out) {
+    if (out.time_reply) time_replies_.at(out.time_reply->carrier).write(*out.time_reply);
+    for (const protocol::PlanOffer& offer : out.offers) offers_.at(offer.carrier).write(offer);
+    if (out.beacon) beacon_.write(*out.beacon);
+    for (const protocol::CommandReply& reply : out.replies) replies_.write(reply);
+  }
+
+ private:
+  gyre::dds::Inbox<Event> inbox_;  // outlives the node, whose handlers fill it
+  std::unique_ptr<gyre::dds::Node> node_;
+  gyre::dds::Writer<protocol::Beacon> beacon_;
+  gyre::dds::Writer<protocol::CommandReply> replies_;
+  std::map<gyre::CarrierId, gyre::dds::Writer<protocol::TimeReply>> time_replies_;
+  std::map<gyre::CarrierId, gyre::dds::Writer<protocol::PlanOffer>> offers_;
+};
+
+Outcome conduct(Coordinator& coordinator, Wire& wire) {
+  LocalTime next_tick = gyre::dds::now();
+  std::optional<Outcome> finished;
+  const auto step = [&](const Event& event) {
+    const Outputs out = coordinator.step(gyre::dds::now(), event);
+    wire.send(out);
+    gyre::log(out.notices);
+    next_tick = out.next_tick;
+    if (out.finished) finished = out.finished;
+  };
+  for (int interrupts = 0; !finished;) {
+    for (const Event& event : wire.wait_until(next_tick)) step(event);
+    step(gyre::coordinator::Tick{});
+    for (int more = gyre::take_interrupts(); more > 0; --more) {
+      if (++interrupts > 1) return {false, "interrupted twice: ended at once, the load is left as it is"};
+      step(gyre::coordinator::Shutdown{});
+    }
+  }
+  return *finished;
+}
+
+int run(const std::string& path, const gyre::dds::NetworkOptions& network, bool engage) {
+  const auto mission = gyre::mission::read_mission_file(path);
+  if (!mission) {
+    std::fprintf(stderr, "%s\n", mission.error().text.c_str());
+    return kBadUsage;
+  }
+  const gyre::mechanics::Certificate certificate = gyre::mechanics::certify(mission.value().plan);
+  for (const gyre::mechanics::Reason& reason : certificate.reasons) {
+    spdlog::error("refused: {}: {}", name(reason.rule), reason.text);
+  }
+  if (!certificate.admissible()) return kRefused;
+
+  const auto options = gyre::dds::node_options(network, {gyre::dds::Hub::kCoordinator, std::nullopt});
+  if (!options) {
+    spdlog::error("{}", options.error().text);
+    return kBadUsage;
+  }
+  auto node = gyre::dds::Node::open(options.value());
+  if (!node) {
+    spdlog::error("{}", node.error().text);
+    return kRefused;
+  }
+  gyre::coordinator::Job job{mission.value().name, mission.value().plan, std::nullopt};
+  if (const auto duration_s = mission.value().transition_duration_s) job.transition = gyre::from_seconds(*duration_s);
+  gyre::coordinator::CoordinatorOptions coordinator_options;
+  coordinator_options.nonce = std::random_device{}();
+  coordinator_options.engage_when_ready = engage;
+
+  Coordinator coordinator(job, coordinator_options);
+  Wire wire(std::move(node).value(), mission.value().plan);
+  const Outcome outcome = conduct(coordinator, wire);
+  spdlog::log(outcome.clean ? spdlog::level::info : spdlog::level::err, "{}", outcome.text);
+  return outcome.clean ? kGood : kRefused;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  gyre::block_interrupts();
+  CLI::App app{"Owns the mission: certifies it, keeps swarm time, beacons the phase, agrees transitions.",
+               "gyre-coordinator"};
+  std::string mission;
+  std::string log_level = "info";
+  bool engage = false;
+  gyre::dds::NetworkOptions network;
+  app.add_option("MISSION", mission, "mission file (protobuf text format)")->required();
+  app.add_flag("--engage", engage, "start the motion as soon as every agent is ready")->envname("GYRE_ENGAGE");
+  app.add_option("--log-level", log_level, "trace, debug, info, warning, error or off")
+      ->envname("GYRE_LOG_LEVEL")
+      ->capture_default_str();
+  gyre::dds::add_network_options(app, network);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    return app.exit(problem) == 0 ? kGood : kBadUsage;
+  }
+  if (const auto started = gyre::start_log("gyre-coordinator", log_level); !started) {
+    std::fprintf(stderr, "%s\n", started.error().text.c_str());
+    return kBadUsage;
+  }
+  return run(mission, network, engage);
+}

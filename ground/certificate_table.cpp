@@ -1,13 +1,13 @@
 #include "ground/certificate_table.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <sstream>
 #include <vector>
 
 #include "common/base/text.hpp"
+#include "ground/text_table.hpp"
 
 namespace gyre::ground {
 namespace {
@@ -20,36 +20,23 @@ using Limit = std::optional<double>;
 
 constexpr std::size_t kTextWidth = 100;
 
-std::string number(double value) {
-  if (!std::isfinite(value)) return "unbounded";
-  if (std::abs(value) < 1e-12) return "0";  // rounding of figures of order one
-  return text("%.4g", value);
-}
-
-/// Both ends, or one number when a reader could not tell them apart.
-std::string range(const Range& figure) {
-  const std::string min = number(figure.min);
-  const std::string max = number(figure.max);
-  return min == max ? min : min + " .. " + max;
-}
-
 std::string limit(const Limit& min, const Limit& max) {
-  if (min && max) return number(*min) + " .. " + number(*max);
-  if (min) return ">= " + number(*min);
-  if (max) return "<= " + number(*max);
+  if (min && max) return number_text(*min) + " .. " + number_text(*max);
+  if (min) return ">= " + number_text(*min);
+  if (max) return "<= " + number_text(*max);
   return "-";
 }
 
-std::string marked(std::string figure, bool broken) {
+std::string marked(const std::string& figure, bool broken) {
   return broken ? figure + " !" : figure;
 }
 
 std::string judged(const Range& figure, const Limit& min, const Limit& max) {
-  return marked(range(figure), (min && !(figure.min >= *min)) || (max && !(figure.max <= *max)));
+  return marked(range_text(figure), (min && !(figure.min >= *min)) || (max && !(figure.max <= *max)));
 }
 
 std::string judged_max(double figure, const Limit& max) {
-  return marked(number(figure), max && !(figure <= *max));
+  return marked(number_text(figure), max && !(figure <= *max));
 }
 
 /// |q_z| keeps its sign in any motion that is allowed.
@@ -57,7 +44,7 @@ double least_vertical_cosine(const CarrierFigures& figures) {
   return std::max(0.0, std::max(figures.vertical_cosine.min, -figures.vertical_cosine.max));
 }
 
-using Row = std::array<std::string, 8>;
+using Row = std::vector<std::string>;
 
 std::vector<Row> rows(const Limits& limits, const Certificate& certificate) {
   std::vector<Row> out;
@@ -69,28 +56,13 @@ std::vector<Row> rows(const Limits& limits, const Certificate& certificate) {
                  limit(limits.vertical_cosine_min, {})});
   for (const CarrierFigures& figures : certificate.carriers) {
     const double cosine = least_vertical_cosine(figures);
-    out.push_back({"carrier " + std::to_string(figures.id),
-                   judged(figures.tension_n, limits.tension_min_n, limits.tension_max_n),
-                   judged(figures.length_m, limits.length_min_m, limits.length_max_m),
-                   judged_max(figures.winch_rate_max_m_s(), limits.winch_rate_max_m_s),
-                   judged(figures.speed_m_s, limits.speed_min_m_s, limits.speed_max_m_s),
-                   judged_max(figures.acceleration_max_m_s2, limits.acceleration_max_m_s2), range(figures.altitude_m),
-                   marked(number(cosine), limits.vertical_cosine_min && cosine < *limits.vertical_cosine_min)});
-  }
-  return out;
-}
-
-std::string aligned(const std::vector<Row>& table) {
-  std::array<std::size_t, std::tuple_size_v<Row>> width{};
-  for (const Row& row : table) {
-    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
-  }
-  std::string out;
-  for (const Row& row : table) {
-    std::string line = "  ";
-    for (std::size_t i = 0; i < row.size(); ++i) line += row[i] + std::string(width[i] - row[i].size() + 3, ' ');
-    line.erase(line.find_last_not_of(' ') + 1);
-    out += line + "\n";
+    out.push_back(
+        {"carrier " + std::to_string(figures.id), judged(figures.tension_n, limits.tension_min_n, limits.tension_max_n),
+         judged(figures.length_m, limits.length_min_m, limits.length_max_m),
+         judged_max(figures.winch_rate_max_m_s(), limits.winch_rate_max_m_s),
+         judged(figures.speed_m_s, limits.speed_min_m_s, limits.speed_max_m_s),
+         judged_max(figures.acceleration_max_m_s2, limits.acceleration_max_m_s2), range_text(figures.altitude_m),
+         marked(number_text(cosine), limits.vertical_cosine_min && cosine < *limits.vertical_cosine_min)});
   }
   return out;
 }
@@ -125,9 +97,10 @@ std::string listed(const std::vector<mechanics::Reason>& reasons) {
 std::string separation_line(const Limits& limits, const Certificate& certificate) {
   const mechanics::Separation& separation = certificate.separation;
   if (!std::isfinite(separation.min_m)) return "-";
-  std::string line = number(separation.min_m) + text(" m, carriers %u and %u", separation.first, separation.second);
+  std::string line =
+      number_text(separation.min_m) + text(" m, carriers %u and %u", separation.first, separation.second);
   if (!limits.separation_min_m) return line;
-  line += " (limit >= " + number(*limits.separation_min_m) + ")";
+  line += " (limit >= " + number_text(*limits.separation_min_m) + ")";
   return marked(line, separation.min_m < *limits.separation_min_m);
 }
 
@@ -142,10 +115,10 @@ std::string certificate_table(const std::string& mission_name, const Limits& lim
   out += "\n\n";
   out += aligned(rows(limits, certificate));
   out += "\n";
-  out += "  period             " + number(certificate.period_s) + " s\n";
+  out += "  period             " + number_text(certificate.period_s) + " s\n";
   out += "  separation         " + separation_line(limits, certificate) + "\n";
   out += "  wrench error       " + text("%.2g", certificate.wrench_error_max_n) + " N at most\n";
-  out += "  load stiffness     " + number(certificate.stiffness_min_1_s2) + " 1/s^2 at its softest\n";
+  out += "  load stiffness     " + number_text(certificate.stiffness_min_1_s2) + " 1/s^2 at its softest\n";
   if (!certificate.admissible()) out += "\nWhy, and what would cure it:\n" + listed(certificate.reasons);
   if (!certificate.cautions.empty()) out += "\nNot forbidden, but look at it:\n" + listed(certificate.cautions);
   return out;

@@ -69,6 +69,12 @@ Located Located::required_child(const char* field, const std::string& cure) cons
   return child(field);
 }
 
+bool Located::sound(const char* field, const Span& span) const {
+  if (!has(field)) return false;
+  const double value = message_->GetReflection()->GetDouble(*message_, &descriptor(field));
+  return std::isfinite(value) && value >= span.min && value <= span.max;
+}
+
 double Located::number(const char* field, const Span& span, std::optional<double> absent) const {
   const std::string allowed =
       "a number from " + show(span.min) + " to " + show(span.max) + (*span.unit != '\0' ? " " : "") + span.unit;
@@ -77,7 +83,7 @@ double Located::number(const char* field, const Span& span, std::optional<double
     return absent.value_or(span.min);
   }
   const double value = message_->GetReflection()->GetDouble(*message_, &descriptor(field));
-  if (std::isfinite(value) && value >= span.min && value <= span.max) return value;
+  if (sound(field, span)) return value;
   complain(field, "is " + show(value) + "; give " + allowed);
   return absent.value_or(span.min);
 }

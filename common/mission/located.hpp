@@ -41,6 +41,8 @@ class Located {
   /// As child(), and complains when it is absent, with the cure.
   [[nodiscard]] Located required_child(const char* field, const std::string& cure) const;
 
+  /// Whether number() would find nothing to complain about.
+  [[nodiscard]] bool sound(const char* field, const Span& span) const;
   /// A finite number inside the span. Absent and `absent` not given: required, and complained about.
   [[nodiscard]] double number(const char* field, const Span& span, std::optional<double> absent = std::nullopt) const;
   [[nodiscard]] std::optional<double> optional_number(const char* field, const Span& span) const;

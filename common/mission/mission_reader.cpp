@@ -49,6 +49,9 @@ constexpr int kMaxNumerator = 64;
 constexpr int kMaxDenominator = 8;
 constexpr std::size_t kMaxNameBytes = 64;
 
+/// The cycle's rate, where it has been complained about: rates cannot be judged against it.
+constexpr double kUnknownRate = 0.0;
+
 class ParseErrors : public google::protobuf::io::ErrorCollector {
  public:
   explicit ParseErrors(Complaints& complaints) : complaints_(complaints) {}
@@ -127,6 +130,7 @@ Harmonic closest_harmonic(double ratio) {
 Harmonic read_harmonic(const Located& law, double cycle_rate_rad_s) {
   if (!law.has("rate_rad_s")) return {};
   const double rate = law.number("rate_rad_s", kRate);
+  if (cycle_rate_rad_s == kUnknownRate || !law.sound("rate_rad_s", kRate)) return {};
   const double ratio = rate / cycle_rate_rad_s;
   const Harmonic harmonic = closest_harmonic(ratio);
   if (std::abs(harmonic.ratio() - ratio) > kHarmonicTolerance * ratio) {
@@ -252,7 +256,8 @@ mechanics::Plan read_plan(const Located& root) {
     root.complain("carrier", "is missing; a mission has at least one carrier { id: .. attachment_m { .. } .. }");
     return plan;
   }
-  plan.carriers = read_carriers(root.children("carrier"), plan.cycle.rate_rad_s);
+  const bool rate_known = cycle.sound("rate_rad_s", kRate);
+  plan.carriers = read_carriers(root.children("carrier"), rate_known ? plan.cycle.rate_rad_s : kUnknownRate);
   if (!root.has("cycle")) return plan;
   const std::vector<Located> edges = cycle.children("edge");
   plan.cycle.edges = read_edges(edges);

@@ -60,8 +60,9 @@ class CycleJudge {
   void judge_ends() {
     for (std::size_t j = 0; j < edges_.places.size(); ++j) {
       const Edge& edge = plan_.cycle.edges[j];
-      const bool known = judge_end(edges_.places[j], "from", edge.from) & judge_end(edges_.places[j], "to", edge.to);
-      if (!known) continue;
+      const bool from_known = judge_end(edges_.places[j], "from", edge.from);
+      const bool to_known = judge_end(edges_.places[j], "to", edge.to);
+      if (!from_known || !to_known) continue;
       if (edge.from == edge.to) {
         edges_.places[j].complain("to", "carrier " + std::to_string(edge.to) +
                                             " has an edge to itself; an edge joins two different carriers");

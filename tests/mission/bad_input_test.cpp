@@ -125,6 +125,11 @@ TEST(BadInput, AllComplaintsComeAtOnce) {
   }
 }
 
+TEST(BadInput, AWrongCycleRateIsOneComplaint) {  // and not one more per profile that is judged against it
+  const std::string answer = complaints_about(replaced(kGoodMission, "rate_rad_s: 1\n", "rate_rad_s: -1\n"));
+  EXPECT_EQ(std::count(answer.begin(), answer.end(), '\n'), 0) << answer;
+}
+
 TEST(BadInput, ManyComplaintsAreCountedNotListed) {
   std::string text = "load { mass_kg: 1 inertia_kg_m2 { x: 1 y: 1 z: 1 } }\ncycle { rate_rad_s: 1 }\n";
   for (int i = 0; i < 50; ++i) text += "carrier { id: 200 }\n";

@@ -1,7 +1,6 @@
 #include "simulator/core/load_dynamics.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 
 #include "common/base/ensure.hpp"
@@ -97,9 +96,10 @@ LoadDynamics::Stretch LoadDynamics::stretch(const Vector3d& b, const Eigen::Ref<
   out.parting_w_m_s = anchor.velocity_w_m_s - y.segment<3>(kVelocity) - rotation * omega.cross(b);
   if (out.length_m <= anchor.unstretched_length_m) return out;
   // s = max(0, k (l − l0) + c (l' − l0'))
-  out.tension_n =
-      std::max(0.0, load_.cable.stiffness_n_m * (out.length_m - anchor.unstretched_length_m) +
-                        load_.cable.damping_n_s_m * (out.n.dot(out.parting_w_m_s) - anchor.unstretched_rate_m_s));
+  const double pull_n = load_.cable.stiffness_n_m * (out.length_m - anchor.unstretched_length_m) +
+                        load_.cable.damping_n_s_m * (out.n.dot(out.parting_w_m_s) - anchor.unstretched_rate_m_s);
+  // Not std::max, which would make a slack cable of an anchor that is not a number.
+  out.tension_n = pull_n < 0.0 ? 0.0 : pull_n;
   return out;
 }
 

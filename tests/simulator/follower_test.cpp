@@ -1,0 +1,232 @@
+// How carriers, winches and wind behave on their own.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "simulator/core/carrier_follower.hpp"
+#include "simulator/core/extrapolation.hpp"
+#include "simulator/core/winch.hpp"
+#include "simulator/core/wind.hpp"
+
+namespace gyre::simulator {
+namespace {
+
+using Eigen::Vector3d;
+
+TEST(Extrapolation, FollowsTheParabolaUpToTheHorizonAndRestsAfterStopping) {
+  const ExtrapolationWeights w = extrapolate(0.4);
+  EXPECT_DOUBLE_EQ(w.by_velocity, 0.4);
+  EXPECT_DOUBLE_EQ(w.by_acceleration, 0.08);
+  const ExtrapolationWeights end = extrapolate(kExtrapolationHorizon_s + kStoppingTime_s);
+  EXPECT_NEAR(end.rate_by_velocity, 0.0, 1e-15);
+  const ExtrapolationWeights week_later = extrapolate(604800.0);
+  EXPECT_DOUBLE_EQ(week_later.by_velocity, end.by_velocity);
+  EXPECT_DOUBLE_EQ(week_later.by_acceleration, end.by_acceleration);
+}
+
+TEST(Extrapolation, RateIsTheDerivativeAndNeverJumps) {
+  const double h = 1e-6;
+  ExtrapolationWeights before = extrapolate(0.0);
+  for (double t_s = h; t_s < 4.0; t_s += 0.01) {
+    const ExtrapolationWeights w = extrapolate(t_s);
+    const ExtrapolationWeights after = extrapolate(t_s + h);
+    const ExtrapolationWeights earlier = extrapolate(t_s - h);
+    EXPECT_NEAR((after.by_velocity - earlier.by_velocity) / (2 * h), w.rate_by_velocity, 1e-6) << t_s;
+    EXPECT_NEAR((after.by_acceleration - earlier.by_acceleration) / (2 * h), w.rate_by_acceleration, 1e-6) << t_s;
+    EXPECT_LT(std::abs(w.rate_by_velocity - before.rate_by_velocity), 0.02) << t_s;
+    before = w;
+  }
+}
+
+/// Where a carrier on a circle has to be.
+CarrierTarget circle(double t_s) {
+  const double rate = 0.8;
+  const double c = std::cos(rate * t_s);
+  const double s = std::sin(rate * t_s);
+  return {Vector3d(c, s, 2.0), rate * Vector3d(-s, c, 0.0), -rate * rate * Vector3d(c, s, 0.0)};
+}
+
+TEST(CarrierFollower, StaysPutWithoutSetpoints) {
+  for (const std::optional<double> lag_s : {std::optional<double>(), std::optional<double>(0.2)}) {
+    const CarrierFollower follower(Vector3d(1, 2, 3), lag_s);
+    EXPECT_EQ(follower.at(1000.0).position_w_m, Vector3d(1, 2, 3));
+    EXPECT_EQ(follower.at(1000.0).velocity_w_m_s, Vector3d::Zero());
+  }
+}
+
+TEST(CarrierFollower, ExactOneIsWhereTheSetpointSaysFromItsArrivalOn) {
+  CarrierFollower follower(Vector3d::Zero(), std::nullopt);
+  // Arrived 1.5 ms before the tick that takes it up.
+  follower.command(circle(5.0), 7.0, 7.0015);
+  const CarrierTarget truth = circle(5.0095);
+  EXPECT_LT((follower.at(7.0095).position_w_m - truth.position_w_m).norm(), 1e-7);
+  EXPECT_LT((follower.at(7.0095).velocity_w_m_s - truth.velocity_w_m_s).norm(), 1e-4);
+}
+
+TEST(CarrierFollower, LaggingOneConvergesExponentiallyAndHasNoSteadyLag) {
+  const double lag_s = 0.2;
+  CarrierFollower follower(circle(0.0).position_w_m + Vector3d(0.5, 0, 0), lag_s);
+  for (int i = 0; i < 400; ++i) {
+    const double t_s = 0.01 * i;
+    const double error = (follower.at(t_s).position_w_m - circle(t_s).position_w_m).norm();
+    EXPECT_NEAR(error, 0.5 * std::exp(-t_s / lag_s), 2e-5) << t_s;
+    follower.command(circle(t_s), t_s, t_s);
+  }
+  EXPECT_LT((follower.at(4.0).position_w_m - circle(4.0).position_w_m).norm(), 1e-5);
+}
+
+TEST(CarrierFollower, LaggingOneNeverJumps) {
+  CarrierFollower follower(Vector3d::Zero(), 0.1);
+  follower.command({Vector3d(1, 0, 0), Vector3d::Zero(), Vector3d::Zero()}, 0.0, 0.0);
+  const Vector3d before = follower.at(0.05).position_w_m;
+  follower.command({Vector3d(-3, 2, 0), Vector3d(1, 0, 0), Vector3d::Zero()}, 0.05, 0.05);
+  EXPECT_LT((follower.at(0.05).position_w_m - before).norm(), 1e-15);
+}
+
+TEST(CarrierFollower, ComesToRestWhenSetpointsStop) {
+  CarrierFollower follower(Vector3d::Zero(), std::nullopt);
+  follower.command(circle(0.0), 0.0, 0.0);
+  EXPECT_LT(follower.at(3.0).velocity_w_m_s.norm(), 1e-12);
+  EXPECT_EQ(follower.at(3.0).position_w_m, follower.at(600.0).position_w_m);
+  EXPECT_LT((follower.at(600.0).position_w_m - circle(0.0).position_w_m).norm(), 2.5);
+}
+
+struct WinchRun {
+  double worst_error_m = 0.0;
+  double fastest_m_s = 0.0;
+};
+
+/// Setpoints at 100 Hz for a winch at 500 Hz; figures from `settled_s` on.
+template <class Target>
+WinchRun run(Winch& winch, Target target, double until_s, double settled_s) {
+  WinchRun out;
+  for (int tick = 0; tick * 0.002 < until_s; ++tick) {
+    const double t_s = tick * 0.002;
+    if (tick % 5 == 0) winch.command(target(t_s), t_s);
+    winch.tick(t_s);
+    for (const double within_s : {0.0, 0.001, 0.002}) {
+      const WinchMotion m = winch.at(t_s + within_s);
+      out.fastest_m_s = std::max(out.fastest_m_s, std::abs(m.rate_m_s));
+      if (t_s >= settled_s) {
+        out.worst_error_m = std::max(out.worst_error_m, std::abs(m.length_m - target(t_s + within_s).length_m));
+      }
+    }
+  }
+  return out;
+}
+
+TEST(Winch, FollowsAMovingLengthWithoutSteadyError) {
+  const auto target = [](double t_s) {
+    return WinchTarget{1.0 + 0.3 * std::sin(t_s), 0.3 * std::cos(t_s), -0.3 * std::sin(t_s)};
+  };
+  Winch winch(1.0, {0.1, std::nullopt, 0.002});
+  EXPECT_LT(run(winch, target, 10.0, 2.0).worst_error_m, 2e-6);
+}
+
+TEST(Winch, ConvergesAtItsTimeConstant) {
+  Winch winch(1.0, {0.1, std::nullopt, 0.002});
+  const auto target = [](double /*t_s*/) { return WinchTarget{1.5, 0.0, 0.0}; };
+  run(winch, target, 0.3, 1.0);
+  EXPECT_NEAR(1.5 - winch.at(0.3).length_m, 0.5 * std::exp(-3.0), 0.003);
+}
+
+TEST(Winch, NeverTurnsFasterThanItsLimitAndArrivesAllTheSame) {
+  Winch winch(1.0, {0.05, 0.2, 0.002});
+  const auto target = [](double /*t_s*/) { return WinchTarget{2.0, 0.0, 0.0}; };
+  const WinchRun figures = run(winch, target, 10.0, 6.0);
+  EXPECT_LE(figures.fastest_m_s, 0.2 * (1.0 + 1e-12));
+  EXPECT_GT(figures.fastest_m_s, 0.199) << "the limit has to have been felt";
+  EXPECT_LT(figures.worst_error_m, 1e-9);
+}
+
+TEST(Winch, RateIsContinuous) {
+  Winch winch(1.0, {0.05, std::nullopt, 0.002});
+  winch.command({1.2, 0.1, 0.0}, 0.0);
+  for (int tick = 0; tick < 100; ++tick) {
+    const double t_s = 0.002 * tick;
+    const WinchMotion before = winch.at(t_s);
+    winch.tick(t_s);
+    EXPECT_DOUBLE_EQ(winch.at(t_s).rate_m_s, before.rate_m_s);
+    EXPECT_DOUBLE_EQ(winch.at(t_s).length_m, before.length_m);
+  }
+}
+
+TEST(Winch, AShortTimeConstantDoesNotOscillate) {
+  Winch winch(1.0, {1e-6, std::nullopt, 0.002});
+  winch.command({1.1, 0.0, 0.0}, 0.0);
+  double before = 1.0;
+  for (int tick = 0; tick < 200; ++tick) {
+    winch.tick(0.002 * tick);
+    const double length = winch.at(0.002 * (tick + 1)).length_m;
+    EXPECT_GE(length, before - 1e-12);
+    EXPECT_LE(length, 1.1 + 1e-12);
+    before = length;
+  }
+  EXPECT_NEAR(before, 1.1, 1e-9);
+}
+
+TEST(Winch, WithoutTimeConstantAndLimitIsExact) {
+  Winch winch(1.0, {});
+  winch.command({2.0, 0.5, 0.0}, 1.0);
+  EXPECT_DOUBLE_EQ(winch.at(1.2).length_m, 2.1);
+}
+
+TEST(Wind, RisesFromCalmToItsMean) {
+  Wind wind({Vector3d(1, 2, 0), 0.0, 1.0}, 1, 0.002);
+  wind.tick(0.0);
+  EXPECT_EQ(wind.force_w_n(0.0), Vector3d::Zero());
+  wind.tick(kWindRise_s + 1.0);
+  EXPECT_EQ(wind.force_w_n(kWindRise_s + 1.0), Vector3d(1, 2, 0));
+}
+
+TEST(Wind, GustsHaveTheirDeviationAndTimeScale) {
+  const double tick_s = 0.01;
+  const double scale_s = 0.5;
+  Wind wind({Vector3d::Zero(), 3.0, scale_s}, 42, tick_s);
+  std::vector<double> gusts;
+  for (int tick = 0; tick < 1000000; ++tick) {
+    wind.tick(tick * tick_s);
+    gusts.push_back(wind.force_w_n(tick * tick_s).y());
+  }
+  const std::size_t shift = 50;  // one time scale
+  double square = 0.0;
+  double product = 0.0;
+  for (std::size_t i = shift; i < gusts.size(); ++i) {
+    square += gusts[i] * gusts[i];
+    product += gusts[i] * gusts[i - shift];
+  }
+  EXPECT_NEAR(std::sqrt(square / static_cast<double>(gusts.size() - shift)), 3.0, 0.1);
+  EXPECT_NEAR(product / square, std::exp(-1.0), 0.03);
+}
+
+TEST(Wind, IsContinuousAndTheSameForTheSameSeed) {
+  Wind one({Vector3d::Zero(), 1.0, 1.0}, 7, 0.002);
+  Wind same({Vector3d::Zero(), 1.0, 1.0}, 7, 0.002);
+  Wind other({Vector3d::Zero(), 1.0, 1.0}, 8, 0.002);
+  bool differs = false;
+  Vector3d end = Vector3d::Zero();
+  for (int tick = 0; tick < 1000; ++tick) {
+    const double t_s = tick * 0.002;
+    one.tick(t_s);
+    same.tick(t_s);
+    other.tick(t_s);
+    EXPECT_LT((one.force_w_n(t_s) - end).norm(), 1e-9);
+    end = one.force_w_n(t_s + 0.002);
+    EXPECT_EQ(end, same.force_w_n(t_s + 0.002));
+    differs = differs || end != other.force_w_n(t_s + 0.002);
+  }
+  EXPECT_TRUE(differs);
+}
+
+TEST(RandomStream, NamesKeepStreamsApart) {
+  RandomStream one(1, "wind");
+  RandomStream same(1, "wind");
+  RandomStream other(1, "loss");
+  const std::uint64_t first = one.next();
+  EXPECT_EQ(first, same.next());
+  EXPECT_NE(first, other.next());
+}
+
+}  // namespace
+}  // namespace gyre::simulator

@@ -92,6 +92,14 @@ struct PlanOffer {
   std::vector<NumberedSlice> slices;
 };
 
+/// Topic carrier_N/held, agent N to coordinator: the plans it holds, so that a restarted coordinator can learn them and
+/// give them back to a restarted agent. At most kMaxPlans.
+struct HeldPlans {
+  CarrierId carrier = 0;
+  std::uint64_t incarnation = 0;
+  std::vector<NumberedSlice> slices;
+};
+
 /// Topics carrier_N/time_request and time_reply: the four timestamps of a two-way exchange.
 struct TimeRequest {
   CarrierId carrier = 0;
@@ -197,6 +205,28 @@ struct CommandReply {
   std::uint64_t id = 0;
   bool done = false;
   std::string text;
+};
+
+/// Topic coordinator/status, coordinator to ground.
+struct CoordinatorStatus {
+  std::uint64_t term = 0;
+  SwarmTime swarm_time{};
+  std::string mission;            ///< its name; at most kMaxTextBytes
+  PlanNumber rest;                ///< the plan that the load rests by
+  PlanNumber motion;              ///< the plan of the mission in force
+  Duration skew_budget{};         ///< clock disagreement the plan in force allows; 0: any
+  Duration skew{};                ///< the greatest disagreement the agents' uncertainties leave possible
+  std::vector<CarrierId> silent;  ///< at most kMaxCarrierId
+  std::string news;               ///< the latest of what it has to tell; at most kMaxTextBytes
+};
+
+/// Topic health, every process to ground: what it dropped, and why.
+struct Health {
+  std::string process;  ///< "agent 3"; at most kMaxTextBytes
+  DropCounts dropped;
+  std::uint64_t undecodable = 0;  ///< samples that were no such message
+  std::uint64_t unsendable = 0;   ///< messages the wire refused
+  std::uint64_t overrun = 0;      ///< messages the main loop came too late for
 };
 
 inline constexpr std::size_t kMaxTextBytes = 255;

@@ -78,7 +78,8 @@ class Simulator {
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
 
-  /// `now` never decreases; for a setpoint it is the time it arrived.
+  /// `now` of an Advance never decreases; for a setpoint it is the time it arrived, which may be before the last
+  /// Advance.
   [[nodiscard]] Outputs step(LocalTime now, const Event& event);
 
   /// When to call step(now, Advance{}) next.

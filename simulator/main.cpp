@@ -1,0 +1,161 @@
+// gyre-simulator MISSION: stands where the vehicles and the load would stand. The motion is in core/; this performs.
+
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include "common/base/interrupts.hpp"
+#include "common/base/log.hpp"
+#include "common/dds/inbox.hpp"
+#include "common/dds/network_options.hpp"
+#include "common/mission/mission.hpp"
+#include "simulator/core/simulator.hpp"
+
+namespace {
+
+using gyre::LocalTime;
+using gyre::simulator::Outputs;
+using gyre::simulator::SimulationSettings;
+using gyre::simulator::Simulator;
+namespace protocol = gyre::protocol;
+
+enum ExitCode { kGood = 0, kFailed = 1, kBadUsage = 2 };
+
+struct SetpointArrived {
+  protocol::Setpoint setpoint;
+  LocalTime arrived;
+};
+
+/// The wire side: setpoints go into the inbox with the time they arrived, states go out through the writers.
+class Wire {
+ public:
+  Wire(std::unique_ptr<gyre::dds::Node> opened, const gyre::mechanics::Plan& plan) : node_(std::move(opened)) {
+    gyre::dds::Node& node = *node_;
+    load_ = node.writer<protocol::LoadState>();
+    for (const gyre::mechanics::Carrier& carrier : plan.carriers) {
+      carriers_.push_back(node.writer<protocol::CarrierState>(carrier.id));
+    }
+    for (const gyre::mechanics::Carrier& carrier : plan.carriers) {
+      node.read<protocol::Setpoint>(
+          [this, own = carrier.id](const protocol::Setpoint& setpoint, LocalTime arrived) {
+            SetpointArrived event{setpoint, arrived};
+            // A topic belongs to one carrier. Id 0 is nobody's, so the core drops, counts and reports it.
+            if (setpoint.carrier != own) event.setpoint.carrier = 0;
+            inbox_.push(std::move(event));
+          },
+          carrier.id);
+    }
+  }
+
+  [[nodiscard]] std::deque<SetpointArrived> wait_until(LocalTime deadline) { return inbox_.wait_until(deadline); }
+
+  void send(const Outputs& out) {
+    for (std::size_t i = 0; i < out.carriers.size(); ++i) carriers_[i].write(out.carriers[i]);
+    if (out.load) load_.write(*out.load);
+  }
+
+ private:
+  gyre::dds::Inbox<SetpointArrived> inbox_;  // outlives the node, whose handlers fill it
+  std::unique_ptr<gyre::dds::Node> node_;
+  gyre::dds::Writer<protocol::LoadState> load_;
+  std::vector<gyre::dds::Writer<protocol::CarrierState>> carriers_;  // in the plan's order
+};
+
+SimulationSettings settings_of(const gyre::mission::Mission& mission) {
+  SimulationSettings settings;
+  settings.carrier_lag_s = mission.simulation.carrier_time_constant_s;
+  settings.winch_time_constant_s = mission.winch.time_constant_s;
+  settings.winch_rate_limit_m_s = mission.winch.rate_max_m_s;
+  if (const auto& wind = mission.simulation.wind) {
+    settings.wind = {wind->force_w_n, wind->gust_n, wind->gust_time_s};
+    settings.seed = wind->seed;
+  }
+  return settings;
+}
+
+void report(const Outputs& out) {
+  if (out.lag) {
+    spdlog::warn("cannot keep real time: {:.3f} s behind{}", gyre::seconds(out.lag->behind),
+                 out.lag->skipped > gyre::Duration{}
+                     ? fmt::format("; {:.3f} s are skipped, the world stood still", gyre::seconds(out.lag->skipped))
+                     : "");
+  }
+  if (out.dropped) {
+    const protocol::DropCounts& counts = out.dropped->counts;
+    spdlog::warn("setpoints dropped so far: {} nonsense, {} late, {} twice; the latest: {}", counts.nonsense,
+                 counts.late, counts.duplicate, out.dropped->latest);
+  }
+  if (out.failure) spdlog::error("{}; the load is held still meanwhile", out.failure->text);
+}
+
+void simulate(Simulator& simulator, Wire& wire) {
+  while (gyre::take_interrupts() == 0) {
+    for (const SetpointArrived& event : wire.wait_until(simulator.next_due())) {
+      report(simulator.step(event.arrived, event.setpoint));
+    }
+    const LocalTime now = gyre::dds::now();
+    if (now < simulator.next_due()) continue;
+    const Outputs out = simulator.step(now, gyre::simulator::Advance{});
+    wire.send(out);
+    report(out);
+  }
+}
+
+int run(const std::string& path, const gyre::dds::NetworkOptions& network) {
+  const auto mission = gyre::mission::read_mission_file(path);
+  if (!mission) {
+    std::fprintf(stderr, "%s\n", mission.error().text.c_str());
+    return kBadUsage;
+  }
+  const auto options = gyre::dds::node_options(network, {gyre::dds::Hub::kSimulator, std::nullopt});
+  if (!options) {
+    spdlog::error("{}", options.error().text);
+    return kBadUsage;
+  }
+  auto node = gyre::dds::Node::open(options.value());
+  if (!node) {
+    spdlog::error("{}", node.error().text);
+    return kFailed;
+  }
+  const gyre::mechanics::Plan& plan = mission.value().plan;
+  Wire wire(std::move(node).value(), plan);
+  auto simulator = Simulator::create(plan, settings_of(mission.value()), gyre::dds::now());
+  if (!simulator) {
+    spdlog::error("{}", simulator.error().text);
+    return kFailed;
+  }
+  spdlog::info("\"{}\": the load hangs at rest from {} carriers", mission.value().name, plan.carriers.size());
+  Simulator world = std::move(simulator).value();
+  simulate(world, wire);
+  spdlog::info("interrupted; ended after {:.1f} s", gyre::seconds(world.simulated()));
+  return kGood;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  gyre::block_interrupts();
+  CLI::App app{"Simulates the load, its cables, winches and carriers, which follow the agents' setpoints.",
+               "gyre-simulator"};
+  std::string mission;
+  std::string log_level = "info";
+  gyre::dds::NetworkOptions network;
+  app.add_option("MISSION", mission, "mission file (protobuf text format)")->required();
+  app.add_option("--log-level", log_level, "trace, debug, info, warning, error or off")
+      ->envname("GYRE_LOG_LEVEL")
+      ->capture_default_str();
+  gyre::dds::add_network_options(app, network);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    return app.exit(problem) == 0 ? kGood : kBadUsage;
+  }
+  if (const auto started = gyre::start_log("gyre-simulator", log_level); !started) {
+    std::fprintf(stderr, "%s\n", started.error().text.c_str());
+    return kBadUsage;
+  }
+  return run(mission, network);
+}

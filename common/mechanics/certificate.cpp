@@ -64,6 +64,7 @@ Certificate certify(const Plan& plan, const CertifyOptions& options) {
   if (options.separation) certificate.separation = orbit_separation(all, certificate);
   if (options.stiffness && bounded) {
     certificate.stiffness_min_1_s2 = least_stiffness(plan, all, certificate.period_s);
+    certificate.skew = skew_budget(plan, all, certificate.period_s);
     if (certificate.stiffness_min_1_s2 <= 0.0) {
       certificate.cautions.push_back(
           {Rule::kStiffness, std::nullopt,

@@ -18,6 +18,7 @@
 
 #include "common/mechanics/plan.hpp"
 #include "common/mechanics/range.hpp"
+#include "common/mechanics/skew.hpp"
 
 namespace gyre::mechanics {
 
@@ -81,6 +82,7 @@ struct Certificate {
   Separation separation;
   /// Smallest generalised eigenvalue of the load's stiffness against (m I, J) over all time [1/s²] (stiffness.hpp).
   double stiffness_min_1_s2 = 0.0;
+  SkewBudget skew;                       ///< with `stiffness` only
   std::vector<CarrierFigures> carriers;  ///< in the plan's order
 
   [[nodiscard]] bool admissible() const { return reasons.empty(); }

@@ -63,13 +63,6 @@ double period_s(const Plan& plan) {
   return turns * kTwoPi / plan.cycle.rate_rad_s;
 }
 
-Plan rest_plan(const Plan& plan) {
-  Plan rest = plan;
-  for (Edge& edge : rest.cycle.edges) edge.amplitude_n = 0.0;
-  for (Carrier& carrier : rest.carriers) carrier.law.profile.swing = 0.0;
-  return rest;
-}
-
 Plan static_plan(const Plan& plan, double theta_rad) {
   Plan still = plan;
   for (Edge& edge : still.cycle.edges) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/text.hpp"
+#include "common/mechanics/rest_plan.hpp"
 #include "common/protocol/course.hpp"
 #include "common/protocol/sanity.hpp"
 

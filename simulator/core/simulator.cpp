@@ -7,6 +7,7 @@
 
 #include "common/base/ensure.hpp"
 #include "common/mechanics/reference.hpp"
+#include "common/mechanics/rest_plan.hpp"
 
 namespace gyre::simulator {
 namespace {

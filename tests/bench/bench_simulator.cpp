@@ -6,6 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include "common/mechanics/transition.hpp"
+#include "common/mechanics/rest_plan.hpp"
 #include "simulator/core/planned_surroundings.hpp"
 #include "simulator/core/simulator.hpp"
 #include "tests/simulator/rigs.hpp"

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/mechanics/transition.hpp"
+#include "common/mechanics/rest_plan.hpp"
 #include "common/mission/mission.hpp"
 #include "common/protocol/course.hpp"
 #include "ground/flight_certificate.hpp"

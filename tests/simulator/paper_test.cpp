@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "common/mechanics/grasp.hpp"
+#include "common/mechanics/rest_plan.hpp"
 #include "common/mechanics/stiffness.hpp"
 #include "common/mechanics/transition.hpp"
 #include "simulator/core/planned_surroundings.hpp"

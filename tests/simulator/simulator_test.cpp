@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "common/mechanics/transition.hpp"
+#include "common/mechanics/rest_plan.hpp"
 #include "tests/simulator/rigs.hpp"
 
 namespace gyre::simulator {

@@ -56,6 +56,7 @@ class Agent {
 
   /// Samples that never reached the core, so that all that is dropped is counted in one place.
   void count_undecodable(std::uint64_t total) { undecodable_ = total; }
+  [[nodiscard]] const protocol::DropCounts& dropped() const { return dropped_; }
 
  private:
   void on(LocalTime now, const Tick& tick, Outputs& out);

@@ -80,6 +80,7 @@ class Coordinator {
 
   [[nodiscard]] const protocol::Course& course() const { return course_; }
   [[nodiscard]] std::uint64_t term() const { return term_; }
+  [[nodiscard]] const protocol::DropCounts& dropped() const { return dropped_; }
 
  private:
   /// A change on its way: rehearsed, then proposed, until it is go or given up.

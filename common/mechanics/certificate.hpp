@@ -68,7 +68,7 @@ struct CarrierFigures {
 };
 
 struct Separation {
-  double min_m = std::numeric_limits<double>::infinity();  ///< proven lower bound, attained to 1e-7 relative
+  double min_m = std::numeric_limits<double>::infinity();  ///< proven lower bound, attained to 2e-7 m
   CarrierId first = 0, second = 0;                         ///< the pair that comes so close
 };
 

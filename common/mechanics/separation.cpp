@@ -6,8 +6,24 @@
 namespace gyre::mechanics {
 namespace {
 
-/// Of the squared distance: half of it is the relative tolerance of the distance.
-constexpr double kTolerance = 2e-7;
+/// The least distance met so far, and what has to be proven to be done: nothing is closer than the floor.
+class Least {
+ public:
+  /// True if this is a new least.
+  bool include(double square) {
+    if (square >= square_) return false;
+    square_ = square;
+    const double distance = std::sqrt(square);
+    floor_ = std::max(0.0, distance - kSeparationSlack_m - 1e-9 * distance);  // the second for rounding at km
+    return true;
+  }
+  [[nodiscard]] double square() const { return square_; }
+  [[nodiscard]] double floor() const { return floor_; }
+
+ private:
+  double square_ = std::numeric_limits<double>::infinity();
+  double floor_ = std::numeric_limits<double>::infinity();
+};
 
 /// A sphere that holds a whole orbit: most pairs of a large swarm are told apart by these alone.
 struct Sphere {
@@ -41,20 +57,21 @@ class Pair {
         speeds_(a.speed_max_m_s + b.speed_max_m_s),
         accelerations_(a.acceleration_max_m_s2 + b.acceleration_max_m_s2) {}
 
-  /// Lowers `least_square` where this pair comes closer, on the cell of half width h around t.
-  void search(double t, double h, double& least_square) const {
+  /// Lowers `least` where this pair comes closer, on the cell of half width h around t; true if it did.
+  bool search(double t, double h, Least& least) const {
     const TaylorVector<double> a = a_.position_w_m(t);
     const TaylorVector<double> b = b_.position_w_m(t);
     const Eigen::Vector3d d = a.value - b.value;
     const double square = d.squaredNorm();
-    least_square = std::min(least_square, square);
+    bool closer = least.include(square);
+    if (least.floor() == 0.0) return closer;  // they touch: nothing is closer than that
     const double reach = std::sqrt(square) + speeds_ * h;
     const double slope = 2.0 * std::abs(d.dot(a.first - b.first));
     // F >= F(t) − |F'(t)| h − |D|_max (a_i + a_j) h²
-    if (square - slope * h - reach * accelerations_ * h * h >= least_square * (1.0 - kTolerance)) return;
-    if (speeds_ * h <= 1e-9) return;  // carriers that touch: no relative tolerance of zero can be met
-    search(t - 0.5 * h, 0.5 * h, least_square);
-    search(t + 0.5 * h, 0.5 * h, least_square);
+    if (square - slope * h - reach * accelerations_ * h * h >= least.floor() * least.floor()) return closer;
+    closer |= search(t - 0.5 * h, 0.5 * h, least);
+    closer |= search(t + 0.5 * h, 0.5 * h, least);
+    return closer;
   }
 
  private:
@@ -87,20 +104,19 @@ Separation separation(const std::vector<Path>& paths, double begin_s, double end
   }
   std::sort(pairs.begin(), pairs.end(), [](const Candidate& a, const Candidate& b) { return a.gap < b.gap; });
 
-  double least_square = std::numeric_limits<double>::infinity();
+  Least least;
   for (const auto& [gap, i, j] : pairs) {
-    if (gap > 0.0 && gap * gap >= least_square) break;  // sorted: no later pair can come closer
+    if (gap > 0.0 && gap * gap >= least.square()) break;  // sorted: no later pair can come closer
     const Pair pair(paths[i], paths[j]);
-    const double before = least_square;
     constexpr int kCells = 64;
     const double h = 0.5 * (end_s - begin_s) / kCells;
-    for (int c = 0; c < kCells; ++c) pair.search(begin_s + h * (2 * c + 1), h, least_square);
-    if (least_square < before) {
-      result.first = paths[i].id;
-      result.second = paths[j].id;
-    }
+    bool closer = false;
+    for (int c = 0; c < kCells; ++c) closer |= pair.search(begin_s + h * (2 * c + 1), h, least);
+    if (!closer) continue;
+    result.first = paths[i].id;
+    result.second = paths[j].id;
   }
-  result.min_m = std::sqrt(least_square * (1.0 - kTolerance));
+  result.min_m = least.floor();
   return result;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// How close two carriers ever come: a lower bound that is proven, and attained to 1e-7.
+// How close two carriers ever come: a lower bound that is proven, and attained to kSeparationSlack_m.
 //
 //   D = p_i − p_j,  F = D·D,  F' = 2 D·D',  F'' = 2 |D'|² + 2 D·D'' >= −2 |D| (a_i + a_j)
 //
@@ -24,6 +24,9 @@ struct Path {
   double acceleration_max_m_s2 = 0.0;
   std::function<TaylorVector<double>(double t_s)> position_w_m;
 };
+
+/// Carriers that come closer than this touch: their separation is 0.
+inline constexpr double kSeparationSlack_m = 2e-7;
 
 /// Over [begin_s, end_s]. Infinite for fewer than two carriers; 0 where a carrier's motion is unbounded.
 [[nodiscard]] Separation separation(const std::vector<Path>& paths, double begin_s, double end_s);

@@ -1,0 +1,48 @@
+#pragma once
+// Plans to hold the laws against: the paper's, the reference cases, polygons known by hand, and random ones.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/mechanics/carrier_slice.hpp"
+#include "common/mechanics/plan.hpp"
+#include "common/mechanics/reference.hpp"
+
+namespace gyre::mechanics::test {
+
+inline constexpr double kPi = 3.14159265358979323846;
+
+/// tests/data/reference/cases/<name>.json, which was written independently of this code.
+[[nodiscard]] Plan reference_plan(const std::string& name);
+
+/// The paper's example with level carriers: n = 4, the phases of the paper.
+[[nodiscard]] Plan paper_plan();
+
+/// n level carriers on a horizontal regular polygon above the centre of mass, with edge-heading phases.
+[[nodiscard]] Plan polygon_plan(std::size_t n);
+
+/// phase_j := heading of edge j as travelled, W (DESIGN fact 2).
+void take_edge_headings(Plan& plan);
+
+/// What a random plan may be; RapidCheck draws the rest, so call it inside a property.
+struct RandomPlan {
+  std::size_t carriers_min = 3, carriers_max = 12;
+  bool tilted = true;
+  bool mixed_laws = true;  ///< else all level
+};
+
+/// A plan whose cables stay well away from slack and from their law's plane: every figure is finite.
+[[nodiscard]] Plan random_plan(const RandomPlan& wish = {});
+
+/// Drawn evenly from [low, high].
+[[nodiscard]] double real(double low, double high);
+[[nodiscard]] std::size_t whole(std::size_t low, std::size_t high);
+
+/// The wrench that forces at the carriers' attachments exert on the load.
+[[nodiscard]] Eigen::Matrix<double, 6, 1> wrench(const Plan& plan, const std::vector<Eigen::Vector3d>& forces_w_n);
+
+/// Calls `visit` at `count` + 1 moments, evenly from begin to end, both included.
+void sample(double begin_s, double end_s, int count, const std::function<void(double t_s)>& visit);
+
+}  // namespace gyre::mechanics::test

@@ -128,6 +128,7 @@ void Agent::on(LocalTime now, const protocol::PlanOffer& offer, Outputs& out) {
     out.notices.push_back({Notice::Level::kError, "plan refused: " + plans_.refusal()});
   }
   if (heard_) adopt(now, heard_->course, out);
+  out.held = protocol::HeldPlans{options_.carrier, options_.incarnation, plans_.held()};
   out.status = status(now);  // the coordinator is waiting for this answer
 }
 
@@ -227,8 +228,8 @@ protocol::AgentState Agent::state(LocalTime now) const {
   const mechanics::CarrierSlice* slice = plans_.find(course_.base.number);
   if (!time || slice == nullptr) return protocol::AgentState::kWaiting;
   if (coordinator_.silent(now)) return protocol::AgentState::kAlone;
-  return moves(*slice) || protocol::in_transition(course_, *time) ? protocol::AgentState::kFlying
-                                                                  : protocol::AgentState::kReady;
+  return mechanics::moves(*slice) || protocol::in_transition(course_, *time) ? protocol::AgentState::kFlying
+                                                                             : protocol::AgentState::kReady;
 }
 
 protocol::AgentStatus Agent::status(LocalTime now) {

@@ -44,6 +44,7 @@ struct Outputs {
   std::optional<protocol::TimeRequest> time_request;
   std::optional<protocol::Setpoint> setpoint;
   std::optional<protocol::AgentStatus> status;
+  std::optional<protocol::HeldPlans> held;
   Notices notices;
   LocalTime next_tick{};
 };

@@ -10,10 +10,6 @@ namespace gyre::agent {
 using protocol::NumberedSlice;
 using protocol::PlanNumber;
 
-bool moves(const mechanics::CarrierSlice& slice) {
-  return slice.incoming.amplitude_n != 0.0 || slice.outgoing.amplitude_n != 0.0 || !slice.law.profile.constant();
-}
-
 bool PlanStore::take(const std::vector<NumberedSlice>& offered, const std::vector<PlanNumber>& in_use) {
   const auto wanted = [&](const NumberedSlice& held) {
     const auto same = [&held](const NumberedSlice& o) { return o.number == held.number; };

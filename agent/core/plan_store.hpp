@@ -23,6 +23,7 @@ class PlanStore {
   /// nullptr when not held or refused.
   [[nodiscard]] const mechanics::CarrierSlice* find(const protocol::PlanNumber& number) const;
   [[nodiscard]] std::vector<protocol::PlanNumber> accepted() const;
+  [[nodiscard]] const std::vector<protocol::NumberedSlice>& held() const { return accepted_; }
   /// The newest plan this vehicle cannot fly and why; number none() when there is none.
   [[nodiscard]] const protocol::PlanNumber& refused() const { return refused_; }
   [[nodiscard]] const std::string& refusal() const { return refusal_; }
@@ -35,8 +36,5 @@ class PlanStore {
   protocol::PlanNumber refused_;
   std::string refusal_;
 };
-
-/// Whether a slice ever moves its carrier.
-[[nodiscard]] bool moves(const mechanics::CarrierSlice& slice);
 
 }  // namespace gyre::agent

@@ -27,6 +27,11 @@ struct EdgePush {
   double offset_n = 0.0;
   double amplitude_n = 0.0;
   double phase_rad = 0.0;
+
+  friend bool operator==(const EdgePush& a, const EdgePush& b) {
+    return a.direction == b.direction && a.offset_n == b.offset_n && a.amplitude_n == b.amplitude_n &&
+           a.phase_rad == b.phase_rad;
+  }
 };
 
 struct CarrierSlice {
@@ -39,7 +44,19 @@ struct CarrierSlice {
   LengthLaw law;
   /// 0: do not compensate the cable's stretch.
   double cable_stiffness_n_m = 0.0;
+
+  /// To the bit: the same plan, told twice.
+  friend bool operator==(const CarrierSlice& a, const CarrierSlice& b) {
+    return a.id == b.id && a.attachment_w_m == b.attachment_w_m && a.particular_force_w_n == b.particular_force_w_n &&
+           a.incoming == b.incoming && a.outgoing == b.outgoing && a.rate_rad_s == b.rate_rad_s && a.law == b.law &&
+           a.cable_stiffness_n_m == b.cable_stiffness_n_m;
+  }
 };
+
+/// Whether the slice ever moves its carrier.
+[[nodiscard]] inline bool moves(const CarrierSlice& c) {
+  return c.incoming.amplitude_n != 0.0 || c.outgoing.amplitude_n != 0.0 || !c.law.profile.constant();
+}
 
 /// One slice per carrier, in the plan's order of carriers.
 [[nodiscard]] std::vector<CarrierSlice> slices(const Plan& plan);

@@ -25,6 +25,10 @@ struct Harmonic {
   int denominator = 1;
 
   [[nodiscard]] double ratio() const { return static_cast<double>(numerator) / static_cast<double>(denominator); }
+
+  friend bool operator==(const Harmonic& a, const Harmonic& b) {
+    return a.numerator == b.numerator && a.denominator == b.denominator;
+  }
 };
 
 /// mean + swing · sin(harmonic · theta + phase_rad).
@@ -35,6 +39,10 @@ struct Oscillation {
   double phase_rad = 0.0;
 
   [[nodiscard]] bool constant() const { return swing == 0.0; }
+
+  friend bool operator==(const Oscillation& a, const Oscillation& b) {
+    return a.mean == b.mean && a.swing == b.swing && a.harmonic == b.harmonic && a.phase_rad == b.phase_rad;
+  }
 };
 
 struct LengthLaw {
@@ -47,6 +55,10 @@ struct LengthLaw {
   Oscillation profile;
 
   [[nodiscard]] bool is_projection() const { return kind == Kind::kLevel || kind == Kind::kDirectional; }
+
+  friend bool operator==(const LengthLaw& a, const LengthLaw& b) {
+    return a.kind == b.kind && a.direction == b.direction && a.profile == b.profile;
+  }
 
   static LengthLaw level(double altitude_m);
   static LengthLaw directional(const Eigen::Vector3d& direction, const Oscillation& profile_m);

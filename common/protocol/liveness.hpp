@@ -17,6 +17,7 @@ class Liveness {
   void heard(LocalTime now) { last_ = now; }
   void forget() { last_.reset(); }
 
+  [[nodiscard]] std::optional<LocalTime> last() const { return last_; }
   [[nodiscard]] bool ever_heard() const { return last_.has_value(); }
   /// Never heard counts as silent.
   [[nodiscard]] bool silent(LocalTime now) const { return !last_ || now - *last_ > timeout_; }

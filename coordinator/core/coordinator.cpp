@@ -1,3 +1,5 @@
+// What the coordinator hears, and how it takes its term. What it does about the course is in course_changes.cpp.
+
 #include "coordinator/core/coordinator.hpp"
 
 #include <algorithm>
@@ -10,10 +12,6 @@
 namespace gyre::coordinator {
 
 using protocol::CommandKind;
-
-using protocol::PlanNumber;
-using protocol::Stage;
-using protocol::Transition;
 
 namespace {
 
@@ -46,23 +44,31 @@ Outputs Coordinator::step(LocalTime now, const Event& event) {
   return out;
 }
 
-// ---------------------------------------------------------------------------------------------------------- events
+void Coordinator::tell(Outputs& out, Notice::Level level, const std::string& text) {
+  news_ = text;
+  out.notices.push_back({level, text});
+}
 
 void Coordinator::on(LocalTime now, const Tick& /*tick*/, Outputs& out) {
   if (now < next_tick_) return;
+  // A stall is not made up for: the next beacon is one period from now, not a burst of the missed ones.
   next_tick_ = std::max(next_tick_ + options_.beacon_period, now);
   watch_agents(now, out);
   if (term_ == 0) {
-    open(now, out);
+    listen(now, out);
     return;
   }
   if (protocol::settle(course_, swarm_time(now))) {
     ++course_.revision;
-    out.notices.push_back(
-        {Notice::Level::kInfo, text("the load is held by the %s plan", plan_name(course_.base.number))});
+    tell(out, Notice::Level::kInfo, text("the load is held by the %s plan", plans_.name(course_.base.number)));
   }
+  check_start(now, out);
   drive(now, out);
   out.beacon = protocol::Beacon{term_, ++sequence_, swarm_time(now), course_};
+  if (now >= next_status_) {
+    next_status_ = now + options_.status_period;
+    out.status = status(now);
+  }
 }
 
 void Coordinator::on(LocalTime now, const protocol::AgentStatus& status, Outputs& out) {
@@ -83,12 +89,22 @@ void Coordinator::on(LocalTime now, const protocol::AgentStatus& status, Outputs
       ++dropped_.late;
       return;
   }
-  if (term_ != 0 && status.term > term_) {
+  if (term_ == 0) {
+    recovery_.take(now, status);
+  } else if (status.term > term_) {
     out.finished =
-        Outcome{false, text("carrier %u follows a newer coordinator (term %llu, this one has %llu): standing "
-                            "down",
+        Outcome{false, text("carrier %u follows a newer coordinator (term %llu, this one has %llu): standing down",
                             status.carrier, generation(status.term), generation(term_))};
   }
+}
+
+void Coordinator::on(LocalTime /*now*/, const protocol::HeldPlans& held, Outputs& /*out*/) {
+  const bool ours = std::find(carriers_.begin(), carriers_.end(), held.carrier) != carriers_.end();
+  if (!ours || !sane(protocol::PlanOffer{held.carrier, 0, held.slices})) {
+    ++dropped_.nonsense;
+    return;
+  }
+  if (term_ == 0) recovery_.take(held);
 }
 
 void Coordinator::on(LocalTime now, const TimeRequestArrived& event, Outputs& out) {
@@ -103,37 +119,54 @@ void Coordinator::on(LocalTime now, const TimeRequestArrived& event, Outputs& ou
                                        request.sent,    swarm_time(event.arrived), swarm_time(now)};
 }
 
-void Coordinator::on(LocalTime now, const protocol::Command& command, Outputs& out) {
-  const auto answer = [&](const std::string& why) { out.replies.push_back({command.id, false, why}); };
-  if (term_ == 0) return answer("the coordinator is still listening for a swarm that already flies; try again in 2 s");
-  if (shutting_down_) return answer("the flight is ending");
-  if (pending_) return answer("a transition is being agreed; try again when it is done");
-  PlanNumber to;
-  switch (command.kind) {
-    case CommandKind::kEngage:
-      to = motion_;
-      break;
-    case CommandKind::kRelease:
-      to = rest_;
-      break;
-    default:
-      return answer("this coordinator knows engage and release only");
+void Coordinator::on(LocalTime /*now*/, const protocol::Beacon& beacon, Outputs& out) {
+  if (!sane(beacon)) {
+    ++dropped_.nonsense;
+  } else if (beacon.term < term_) {
+    ++dropped_.wrong_term;
+  } else if (beacon.term > term_) {
+    out.finished = Outcome{
+        false, text("another coordinator flies this swarm (term %llu): standing down; end it first, or use another "
+                    "domain",
+                    generation(beacon.term))};
   }
-  if (destination() == to) return answer(text("already there: the %s plan", plan_name(to)));
-  engage_ = false;
-  begin(now, to, command.id);
 }
 
-void Coordinator::on(LocalTime /*now*/, const protocol::Beacon& beacon, Outputs& out) {
-  if (!sane(beacon) || beacon.term == term_) return;  // our own, or nothing
-  if (beacon.term < term_) {
-    ++dropped_.wrong_term;
-    return;
+void Coordinator::on(LocalTime now, const protocol::Command& command, Outputs& out) {
+  const auto refuse = [&](const std::string& why) { out.replies.push_back({command.id, false, why}); };
+  if (term_ == 0) return refuse("the coordinator is still listening for a swarm that already flies; try again in 2 s");
+  if (shutting_down_) return refuse("the flight is ending");
+  if (agreement_) return refuse("a transition is being agreed; try again when it is done");
+  switch (command.kind) {
+    case CommandKind::kFreeze:
+      if (!moving()) return refuse("nothing moves");
+      engage_ = false;
+      return freeze(now, swarm_time(now) + options_.agreement.lead, true, command.id, out);
+    case CommandKind::kEngage:
+    case CommandKind::kRelease:
+      break;
+    case CommandKind::kRetune:
+      return refuse("a retune needs its mission read first");
   }
-  out.finished = Outcome{
-      false,
-      text("another coordinator flies this swarm (term %llu): standing down; end it first, or use another domain",
-           generation(beacon.term))};
+  const protocol::PlanNumber to = command.kind == CommandKind::kEngage ? motion_ : rest_;
+  if (destination() == to) return refuse(text("already there: the %s plan", plans_.name(to)));
+  if (const auto why = obstacle(now, to)) return refuse(*why);
+  engage_ = false;
+  frozen_for_loss_ = false;
+  begin(now, intent_to(to, command.id));
+}
+
+void Coordinator::on(LocalTime now, const Retune& retune, Outputs& out) {
+  const auto refuse = [&](const std::string& why) { out.replies.push_back({retune.command, false, why}); };
+  if (term_ == 0 || shutting_down_ || agreement_) return refuse("not now: the coordinator is busy; try again");
+  if (const auto why = retune_obstacle(job_.plan, retune.job.plan)) return refuse("cannot retune: " + *why);
+  const bool at_rest = destination() == rest_;
+  job_ = retune.job;
+  rest_ = plans_.add(term_, by_carrier(mechanics::slices(mechanics::rest_plan(job_.plan))), "rest");
+  motion_ = plans_.add(term_, by_carrier(mechanics::slices(job_.plan)), "motion");
+  offer_plans(out);
+  // The agents see the plan and the proposal in the same moment; the lead is theirs to accept and confirm.
+  begin(now, intent_to(at_rest ? rest_ : motion_, retune.command));
 }
 
 void Coordinator::on(LocalTime /*now*/, const Shutdown& /*shutdown*/, Outputs& out) {
@@ -141,192 +174,96 @@ void Coordinator::on(LocalTime /*now*/, const Shutdown& /*shutdown*/, Outputs& o
     out.finished = Outcome{true, "ended before the flight began"};
     return;
   }
-  if (!shutting_down_) out.notices.push_back({Notice::Level::kInfo, "ending the flight: back to rest"});
+  if (!shutting_down_) tell(out, Notice::Level::kInfo, "ending the flight: back to rest");
   shutting_down_ = true;
   engage_ = false;
 }
 
-// --------------------------------------------------------------------------------------------------------- opening
+// --------------------------------------------------------------------------------------------------------- listening
 
-void Coordinator::open(LocalTime now, Outputs& out) {
+void Coordinator::listen(LocalTime now, Outputs& out) {
   if (!listening_since_) {
     listening_since_ = now;
-    out.notices.push_back(
-        {Notice::Level::kInfo, text("mission \"%s\": listening for %zu agents", job_.name.c_str(), carriers_.size())});
+    tell(out, Notice::Level::kInfo,
+         text("mission \"%s\": listening for %zu agents", job_.name.c_str(), carriers_.size()));
   }
-  std::uint64_t above = 0;
-  for (const CarrierId id : carriers_) {
-    if (const auto* status = fleet_.status(id)) above = std::max(above, status->term);
-  }
-  const bool all_heard = fleet_.missing(now, [](const auto&) { return true; }).empty();
-  // Once everybody was heard and nobody has flown, there is nothing to listen for.
-  if (!(all_heard && above == 0) && now - *listening_since_ < options_.listening) return;
-  take_term(now, above, out);
+  // Once everybody was heard, with every plan of the course if there is one, there is nothing left to learn.
+  const auto known = [this](const protocol::AgentStatus& s) { return recovery_.complete_for(s.carrier); };
+  if (!fleet_.missing(now, known).empty() && now - *listening_since_ < options_.listening) return;
+  take_term(now, out);
 }
 
-void Coordinator::take_term(LocalTime now, std::uint64_t above, Outputs& out) {
+void Coordinator::take_term(LocalTime now, Outputs& out) {
   const std::uint64_t nonce = options_.nonce & ((1U << kNonceBits) - 1);
-  term_ = (((above >> kNonceBits) + 1) << kNonceBits) | nonce;
-  rest_ = {term_, 1};
-  motion_ = {term_, 2};
-  plans_[rest_] = mechanics::slices(mechanics::rest_plan(job_.plan));
-  plans_[motion_] = mechanics::slices(job_.plan);
-  course_.revision = 1;
-  course_.base = {rest_, swarm_time(now)};
-  out.notices.push_back(
-      {Notice::Level::kInfo, text("term %llu: the load is held by the rest plan", generation(term_))});
+  term_ = (((recovery_.highest_term() >> kNonceBits) + 1) << kNonceBits) | nonce;
+  last_transition_ = recovery_.last_transition();
+  for (const auto& [number, slices] : recovery_.plans()) plans_.learn(number, slices);
+
+  const auto number_of = [this](const mechanics::Plan& plan, const char* name) {
+    const Slices slices = by_carrier(mechanics::slices(plan));
+    const auto known = plans_.recognise(slices, name);
+    return known ? *known : plans_.add(term_, slices, name);
+  };
+  rest_ = number_of(mechanics::rest_plan(job_.plan), "rest");
+  motion_ = number_of(job_.plan, "motion");
+
+  if (recovery_.course()) {
+    swarm_offset_ = recovery_.swarm_offset();
+    course_ = *recovery_.course();
+    engage_ = engage_ && destination() == rest_;
+    tell(out, Notice::Level::kInfo,
+         text("term %llu: took over a swarm that flies; the load is held by the %s plan", generation(term_),
+              plans_.name(course_.base.number)));
+  } else {
+    course_.base = {rest_, swarm_time(now)};
+    tell(out, Notice::Level::kInfo, text("term %llu: the load is held by the rest plan", generation(term_)));
+  }
+  ++course_.revision;
   offer_plans(out);
 }
 
-void Coordinator::offer_plans(Outputs& out) const {
-  for (std::size_t i = 0; i < carriers_.size(); ++i) {
-    protocol::PlanOffer offer{carriers_[i], term_, {}};
-    for (const auto& [number, slices] : plans_) offer.slices.push_back({number, slices[i]});
-    out.offers.push_back(std::move(offer));
-  }
-}
-
-// --------------------------------------------------------------------------------------------------------- driving
+// ---------------------------------------------------------------------------------------------------------- watching
 
 void Coordinator::watch_agents(LocalTime now, Outputs& out) {
   for (const Fleet::Change& change : fleet_.changes(now)) {
-    const Notice::Level level = change.lost ? Notice::Level::kWarning : Notice::Level::kInfo;
     const char* what = change.lost ? "is silent" : change.restarted ? "was restarted" : "is here";
-    out.notices.push_back({level, text("agent %u %s", change.carrier, what)});
+    tell(out, change.lost ? Notice::Level::kWarning : Notice::Level::kInfo, text("agent %u %s", change.carrier, what));
   }
 }
 
-PlanNumber Coordinator::destination() const {
-  return course_.transitions.empty() ? course_.base.number : course_.transitions.back().to.number;
-}
-
-std::optional<std::string> Coordinator::refusal_of(const PlanNumber& plan) const {
+std::vector<CarrierId> Coordinator::lost(LocalTime now) const {
+  std::vector<CarrierId> out;
   for (const CarrierId id : carriers_) {
-    const protocol::AgentStatus* status = fleet_.status(id);
-    if (status != nullptr && status->refused == plan) return status->refusal;
+    const auto last = fleet_.last_heard(id);
+    if (!last || now - *last > options_.loss_timeout) out.push_back(id);
   }
-  return std::nullopt;
+  return out;
 }
 
-void Coordinator::drive(LocalTime now, Outputs& out) {
-  if (pending_) {
-    pending_->rehearsal ? propose(now, out) : settle_proposal(now, out);
-    return;
+Duration Coordinator::skew(LocalTime now) const {
+  Duration worst{};
+  for (const CarrierId id : carriers_) {
+    const protocol::AgentStatus* s = fleet_.status(id);
+    if (s != nullptr && !fleet_.silent(now, id))
+      worst = std::max(worst, std::min(s->clock_uncertainty, Duration::max() / 4));
   }
-  if (now < retry_at_) return;
-  if (shutting_down_) {
-    if (course_.transitions.empty() && course_.base.number == rest_) {
-      out.finished = Outcome{true, "the flight has ended at rest"};
-    } else if (release_failures_ >= options_.release_attempts) {
-      out.finished = Outcome{false, "the flight could not be brought to rest: agents do not answer"};
-    } else if (destination() != rest_) {
-      begin(now, rest_, std::nullopt);
-    }
-    return;
-  }
-  if (!engage_) return;
-  if (const auto refusal = refusal_of(motion_)) {
-    if (!refusal_told_) out.notices.push_back({Notice::Level::kError, "the motion cannot be flown: " + *refusal});
-    refusal_told_ = true;
-    return;
-  }
-  const auto has_accepted = [this](const protocol::AgentStatus& s) {
-    return std::find(s.accepted.begin(), s.accepted.end(), motion_) != s.accepted.end() &&
-           s.state == protocol::AgentState::kReady;
-  };
-  if (fleet_.missing(now, has_accepted).empty()) begin(now, motion_, std::nullopt);
+  return 2 * worst;  // one early, another late
 }
 
-// ------------------------------------------------------------------------------------------------------ transitions
-
-void Coordinator::begin(LocalTime now, const PlanNumber& to, std::optional<std::uint64_t> command) {
-  Pending pending;
-  pending.transition.id = ++last_transition_;
-  pending.transition.to.number = to;
-  pending.transition.duration = job_.transition.value_or(options_.shortest_transition);
-  pending.command = command;
-  pending_ = std::move(pending);
-  rehearse(now);
-}
-
-void Coordinator::rehearse(LocalTime now) {
-  Transition& t = pending_->transition;
-  const auto carriers = static_cast<Duration::rep>(carriers_.size());
-  t.start = swarm_time(now) + options_.lead + options_.rehearsal_per_carrier * carriers;
-  t.to.epoch = t.start;  // a motion begins at phase zero
-  protocol::Course rehearsed = course_;
-  rehearsed.transitions.push_back(t);
-  rehearsed.transitions.back().stage = Stage::kGo;
-  std::vector<std::vector<mechanics::TimedLayer>> stacks;
-  for (std::size_t i = 0; i < carriers_.size(); ++i) {
-    stacks.push_back(protocol::layers(rehearsed, t.start, [&](const PlanNumber& n) { return &plans_.at(n)[i]; }));
+protocol::CoordinatorStatus Coordinator::status(LocalTime now) const {
+  protocol::CoordinatorStatus s;
+  s.term = term_;
+  s.swarm_time = swarm_time(now);
+  s.mission = job_.name.substr(0, protocol::kMaxTextBytes);
+  s.rest = rest_;
+  s.motion = motion_;
+  s.skew_budget = skew_budget(course_.base.number);
+  s.skew = skew(now);
+  for (const CarrierId id : carriers_) {
+    if (fleet_.silent(now, id)) s.silent.push_back(id);
   }
-  pending_->rehearsal.emplace(std::move(stacks), job_.plan.limits);
-}
-
-void Coordinator::propose(LocalTime now, Outputs& out) {
-  Pending& p = *pending_;
-  if (!p.rehearsal->advance()) return;
-  if (!p.rehearsal->reasons().empty()) {
-    if (++p.attempt > options_.slower_attempts || job_.transition) {
-      give_up("the transition would break a limit: " + p.rehearsal->reasons().front().text, out);
-      return;
-    }
-    p.transition.duration *= 2;
-    rehearse(now);
-    return;
-  }
-  // The lead is for the agents to answer in; a rehearsal that took it up begins again, for a later start.
-  if (p.transition.start - swarm_time(now) < options_.lead / 2 + options_.go_margin) {
-    if (++p.attempt > options_.slower_attempts) return give_up("rehearsing it takes too long on this machine", out);
-    rehearse(now);
-    return;
-  }
-  p.rehearsal.reset();
-  course_.transitions.push_back(p.transition);
-  ++course_.revision;
-  offer_plans(out);
-}
-
-void Coordinator::settle_proposal(LocalTime now, Outputs& out) {
-  const Transition& t = pending_->transition;
-  const auto has_confirmed = [&](const protocol::AgentStatus& s) { return s.term == term_ && s.confirmed >= t.id; };
-  const std::vector<CarrierId> missing = fleet_.missing(now, has_confirmed);
-  if (missing.empty()) {
-    course_.transitions.back().stage = Stage::kGo;
-    ++course_.revision;
-    const std::string told = text("transition to the %s plan starts in %.2f s and takes %.3g s", plan_name(t.to.number),
-                                  seconds(t.start - swarm_time(now)), seconds(t.duration));
-    out.notices.push_back({Notice::Level::kInfo, told});
-    if (pending_->command) out.replies.push_back({*pending_->command, true, told});
-    if (t.to.number == motion_) engage_ = false;
-    release_failures_ = 0;
-    pending_.reset();
-    return;
-  }
-  if (t.start - swarm_time(now) >= options_.go_margin) return;
-  course_.transitions.pop_back();
-  ++course_.revision;
-  if (const auto refusal = refusal_of(t.to.number)) {
-    give_up("refused: " + *refusal, out);
-  } else {
-    give_up("not confirmed in time by " + list(missing), out);
-  }
-  retry_at_ = now + options_.lead;
-}
-
-void Coordinator::give_up(const std::string& why, Outputs& out) {
-  const std::string told =
-      text("transition to the %s plan given up: %s", plan_name(pending_->transition.to.number), why.c_str());
-  out.notices.push_back({Notice::Level::kWarning, told});
-  if (pending_->command) out.replies.push_back({*pending_->command, false, told});
-  if (shutting_down_) ++release_failures_;
-  pending_.reset();
-}
-
-const char* Coordinator::plan_name(const PlanNumber& plan) const {
-  if (plan == rest_) return "rest";
-  return plan == motion_ ? "motion" : "former";
+  s.news = news_.substr(0, protocol::kMaxTextBytes);
+  return s;
 }
 
 }  // namespace gyre::coordinator

@@ -4,46 +4,54 @@
 // step(now, event) -> outputs; it reads no clock and performs nothing. It sends nothing per vehicle per tick: the
 // beacon goes to all, plans go out when they change.
 //
-// How a change is agreed. A plan is offered; every agent certifies its slice and accepts. A transition to it is
-// rehearsed (rehearsal.hpp), then proposed in the beacon with its start; every agent confirms; the beacon says go until
-// it starts. Whoever has not confirmed in time: the proposal is gone from the beacon, and nothing has happened.
+// Everything that ever changes is a transition to another plan (agreement.hpp): engage to the motion, release to rest,
+// retune to a new motion, freeze to the static plan of one moment. A transition that turns out not to be known to
+// everybody when it starts is turned back by another one on top of it: the smooth step makes that cost almost nothing.
 //
 // Duties of whoever performs the outputs: send the time reply first and at once, it carries the moment of this step;
 // offers go out before the beacon that refers to them.
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "common/base/notice.hpp"
-#include "common/mechanics/carrier_slice.hpp"
+#include "common/mechanics/plan.hpp"
 #include "common/protocol/messages.hpp"
+#include "coordinator/core/agreement.hpp"
 #include "coordinator/core/fleet.hpp"
-#include "coordinator/core/rehearsal.hpp"
+#include "coordinator/core/plan_book.hpp"
+#include "coordinator/core/recovery.hpp"
 
 namespace gyre::coordinator {
 
-/// What is to be flown.
+enum class AgentLoss { kFreeze, kContinue };
+
+/// What is to be flown; its plan is admissible (mechanics/certificate.hpp).
 struct Job {
   std::string name;
   mechanics::Plan plan;
   std::optional<Duration> transition;  ///< absent: the shortest that keeps all limits
+  AgentLoss on_agent_loss = AgentLoss::kFreeze;
 };
 
 struct CoordinatorOptions {
   std::uint64_t nonce = 0;         ///< random; makes the terms of two coordinators differ
   bool engage_when_ready = false;  ///< start the motion as soon as every agent has accepted
   Duration beacon_period = std::chrono::milliseconds(20);
-  Duration agent_timeout = std::chrono::milliseconds(450);
-  Duration listening = std::chrono::milliseconds(1500);  ///< for a swarm that already flies
-  Duration lead = std::chrono::milliseconds(600);        ///< from proposal to start
-  Duration go_margin = std::chrono::milliseconds(150);   ///< before the start nothing is decided any more
-  Duration rehearsal_per_carrier = std::chrono::milliseconds(40);
+  Duration status_period = std::chrono::milliseconds(500);
+  Duration agent_timeout = std::chrono::milliseconds(450);  ///< an agent is named silent
+  Duration loss_timeout = std::chrono::seconds(1);          ///< a silent agent is lost, and the policy acts
+  Duration listening = std::chrono::milliseconds(1500);     ///< for a swarm that already flies
   Duration shortest_transition = std::chrono::seconds(5);
-  int slower_attempts = 4;   ///< a transition that breaks a limit is tried at twice the duration
+  Duration freezing = std::chrono::seconds(2);
+  Duration turning_back = std::chrono::seconds(2);
+  Duration start_check = std::chrono::milliseconds(300);  ///< after a start, to see that everybody follows
+  /// How far a vehicle goes on along its path after its last setpoint (simulator: 1 s, then 2 s to rest).
+  Duration coasting = std::chrono::seconds(2);
+  AgreementOptions agreement;
   int release_attempts = 5;  ///< at shutdown, with agents that do not answer
 };
 
@@ -52,10 +60,15 @@ struct TimeRequestArrived {
   protocol::TimeRequest request;
   LocalTime arrived{};
 };
+/// A command whose mission was read and certified outside.
+struct Retune {
+  std::uint64_t command = 0;
+  Job job;
+};
 /// End the flight: back to rest, then finish.
 struct Shutdown {};
-using Event =
-    std::variant<Tick, protocol::AgentStatus, TimeRequestArrived, protocol::Command, protocol::Beacon, Shutdown>;
+using Event = std::variant<Tick, protocol::AgentStatus, protocol::HeldPlans, TimeRequestArrived, protocol::Command,
+                           Retune, protocol::Beacon, Shutdown>;
 
 struct Outcome {
   bool clean = true;
@@ -66,6 +79,7 @@ struct Outputs {
   std::optional<protocol::TimeReply> time_reply;
   std::vector<protocol::PlanOffer> offers;
   std::optional<protocol::Beacon> beacon;
+  std::optional<protocol::CoordinatorStatus> status;
   std::vector<protocol::CommandReply> replies;
   Notices notices;
   std::optional<Outcome> finished;  ///< nothing more to do; the process may end
@@ -83,41 +97,49 @@ class Coordinator {
   [[nodiscard]] const protocol::DropCounts& dropped() const { return dropped_; }
 
  private:
-  /// A change on its way: rehearsed, then proposed, until it is go or given up.
-  struct Pending {
-    protocol::Transition transition;
-    std::optional<Rehearsal> rehearsal;  ///< absent once proposed
-    int attempt = 0;
-    std::optional<std::uint64_t> command;  ///< to be answered
-  };
-
   void on(LocalTime now, const Tick& tick, Outputs& out);
   void on(LocalTime now, const protocol::AgentStatus& status, Outputs& out);
+  void on(LocalTime now, const protocol::HeldPlans& held, Outputs& out);
   void on(LocalTime now, const TimeRequestArrived& arrived, Outputs& out);
   void on(LocalTime now, const protocol::Command& command, Outputs& out);
+  void on(LocalTime now, const Retune& retune, Outputs& out);
   void on(LocalTime now, const protocol::Beacon& beacon, Outputs& out);
   void on(LocalTime now, const Shutdown& shutdown, Outputs& out);
 
-  void open(LocalTime now, Outputs& out);
-  void take_term(LocalTime now, std::uint64_t above, Outputs& out);
+  void listen(LocalTime now, Outputs& out);
+  void take_term(LocalTime now, Outputs& out);
   void watch_agents(LocalTime now, Outputs& out);
+  void check_start(LocalTime now, Outputs& out);
   void drive(LocalTime now, Outputs& out);
-  void begin(LocalTime now, const protocol::PlanNumber& to, std::optional<std::uint64_t> command);
-  void rehearse(LocalTime now);
-  void propose(LocalTime now, Outputs& out);
-  void settle_proposal(LocalTime now, Outputs& out);
-  void give_up(const std::string& why, Outputs& out);
-  void offer_plans(Outputs& out) const;
+  void freeze(LocalTime now, SwarmTime moment, bool rehearsed, std::optional<std::uint64_t> command, Outputs& out);
+  void begin(LocalTime now, Intent intent);
+  void pursue(LocalTime now, Outputs& out);
+  void go(Outputs& out);
+  void give_up(LocalTime now, Outputs& out);
 
   [[nodiscard]] SwarmTime swarm_time(LocalTime now) const { return SwarmTime(now.time_since_epoch() + swarm_offset_); }
   [[nodiscard]] protocol::PlanNumber destination() const;
+  [[nodiscard]] std::vector<mechanics::TimedLayer> layers(CarrierId carrier, const protocol::Course& course,
+                                                          SwarmTime origin) const;
+  [[nodiscard]] std::vector<CarrierId> lost(LocalTime now) const;
+  [[nodiscard]] std::vector<CarrierId> unconfirmed(LocalTime now) const;
   [[nodiscard]] std::optional<std::string> refusal_of(const protocol::PlanNumber& plan) const;
-  [[nodiscard]] const char* plan_name(const protocol::PlanNumber& plan) const;
+  [[nodiscard]] std::optional<std::string> obstacle(LocalTime now, const protocol::PlanNumber& to) const;
+  [[nodiscard]] Duration skew_budget(const protocol::PlanNumber& plan) const;
+  [[nodiscard]] Duration skew(LocalTime now) const;
+  [[nodiscard]] bool moving() const;
+  [[nodiscard]] Intent intent_to(const protocol::PlanNumber& to, std::optional<std::uint64_t> command) const;
+  [[nodiscard]] std::vector<protocol::PlanNumber> plans_in_use() const;
+  [[nodiscard]] protocol::CoordinatorStatus status(LocalTime now) const;
+  void offer_plans(Outputs& out) const;
+  void tell(Outputs& out, Notice::Level level, const std::string& text);
 
   Job job_;
   CoordinatorOptions options_;
   std::vector<CarrierId> carriers_;
   Fleet fleet_;
+  Recovery recovery_;
+  PlanBook plans_;
   Duration swarm_offset_{};  ///< swarm time − this process's clock
 
   std::uint64_t term_ = 0;  ///< 0 while still listening
@@ -125,18 +147,23 @@ class Coordinator {
   std::uint64_t last_transition_ = 0;
   protocol::PlanNumber rest_;
   protocol::PlanNumber motion_;
-  std::map<protocol::PlanNumber, std::vector<mechanics::CarrierSlice>> plans_;  ///< slices in the order of carriers_
   protocol::Course course_;
-  std::optional<Pending> pending_;
+  std::optional<Agreement> agreement_;
+  std::optional<std::uint64_t> starting_;  ///< transition whose start is still to be checked
 
   std::optional<LocalTime> listening_since_;
   LocalTime next_tick_{};
+  LocalTime next_status_{};
   LocalTime retry_at_{};
   bool engage_ = false;
+  bool frozen_for_loss_ = false;
   bool shutting_down_ = false;
   int release_failures_ = 0;
-  bool refusal_told_ = false;
+  std::string news_;
   protocol::DropCounts dropped_;
 };
+
+/// Why a flight of `flown` cannot be retuned to `wanted`: another load, other carriers. Absent: it can.
+[[nodiscard]] std::optional<std::string> retune_obstacle(const mechanics::Plan& flown, const mechanics::Plan& wanted);
 
 }  // namespace gyre::coordinator

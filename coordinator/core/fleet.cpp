@@ -48,6 +48,11 @@ bool Fleet::silent(LocalTime now, CarrierId carrier) const {
   return found == members_.end() || found->second.liveness.silent(now);
 }
 
+std::optional<LocalTime> Fleet::last_heard(CarrierId carrier) const {
+  const auto found = members_.find(carrier);
+  return found == members_.end() ? std::nullopt : found->second.liveness.last();
+}
+
 std::string list(const std::vector<CarrierId>& carriers) {
   std::string out = carriers.size() == 1 ? "carrier " : "carriers ";
   for (std::size_t i = 0; i < carriers.size(); ++i) {

@@ -31,6 +31,7 @@ class Fleet {
   /// nullptr until it was heard.
   [[nodiscard]] const protocol::AgentStatus* status(CarrierId carrier) const;
   [[nodiscard]] bool silent(LocalTime now, CarrierId carrier) const;
+  [[nodiscard]] std::optional<LocalTime> last_heard(CarrierId carrier) const;
 
   /// Carriers for which `holds` is false, silent ones included.
   template <class Predicate>

@@ -1,0 +1,55 @@
+#include "coordinator/core/agreement.hpp"
+
+#include "coordinator/core/fleet.hpp"
+
+namespace gyre::coordinator {
+
+void Agreement::schedule(SwarmTime now, std::size_t carriers) {
+  rehearsal_.reset();
+  const Duration rehearsal =
+      intent_.rehearsed ? options_.rehearsal_per_carrier * static_cast<Duration::rep>(carriers) : Duration::zero();
+  transition_.start = now + options_.lead + rehearsal;
+  transition_.to.epoch = transition_.start;
+}
+
+Agreement::Step Agreement::give_up(std::string why) {
+  why_ = std::move(why);
+  return Step::kGiveUp;
+}
+
+Agreement::Step Agreement::rehearsal_done(SwarmTime now) {
+  if (!rehearsal_->reasons().empty()) {
+    if (!intent_.may_slow_down || attempt_ == options_.attempts) {
+      return give_up("it would break a limit: " + rehearsal_->reasons().front().text);
+    }
+    ++attempt_;
+    transition_.duration *= 2;
+    return Step::kAgain;
+  }
+  // The lead is for the agents to answer in; a rehearsal that used it up is done again, for a later start.
+  if (transition_.start - now < options_.lead / 2 + options_.go_margin) {
+    if (attempt_ == options_.attempts) return give_up("rehearsing it takes too long on this machine");
+    ++attempt_;
+    return Step::kAgain;
+  }
+  proposed_ = true;
+  return Step::kPropose;
+}
+
+Agreement::Step Agreement::step(SwarmTime now, const std::vector<CarrierId>& unconfirmed) {
+  if (!proposed_) {
+    if (!intent_.rehearsed) {
+      proposed_ = true;
+      return Step::kPropose;
+    }
+    return rehearsal_->advance() ? rehearsal_done(now) : Step::kWait;
+  }
+  if (unconfirmed.empty()) {
+    transition_.stage = protocol::Stage::kGo;
+    return Step::kGo;
+  }
+  if (transition_.start - now >= options_.go_margin) return Step::kWait;
+  return give_up("not confirmed in time by " + list(unconfirmed));
+}
+
+}  // namespace gyre::coordinator

@@ -1,0 +1,260 @@
+// How the course changes: what the coordinator wants next, and each transition on its way to being flown.
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/text.hpp"
+#include "common/mechanics/frozen_slice.hpp"
+#include "common/mechanics/skew.hpp"
+#include "common/protocol/course.hpp"
+#include "coordinator/core/coordinator.hpp"
+
+namespace gyre::coordinator {
+
+using protocol::PlanNumber;
+using protocol::Stage;
+using protocol::Transition;
+
+PlanNumber Coordinator::destination() const {
+  return course_.transitions.empty() ? course_.base.number : course_.transitions.back().to.number;
+}
+
+bool Coordinator::moving() const {
+  const auto moves_anyone = [this](const PlanNumber& number) {
+    const auto slices = plans_.slices(number);
+    return std::any_of(slices.begin(), slices.end(), [](const auto& slice) { return mechanics::moves(slice); });
+  };
+  const auto numbers = protocol::plans_of(course_);
+  return std::any_of(numbers.begin(), numbers.end(), moves_anyone);
+}
+
+std::vector<mechanics::TimedLayer> Coordinator::layers(CarrierId carrier, const protocol::Course& course,
+                                                       SwarmTime origin) const {
+  return protocol::layers(course, origin, [&](const PlanNumber& number) { return plans_.slice(number, carrier); });
+}
+
+std::vector<PlanNumber> Coordinator::plans_in_use() const {
+  std::vector<PlanNumber> numbers = protocol::plans_of(course_);  // first: these must never be left out
+  if (agreement_) numbers.push_back(agreement_->intent().to);
+  numbers.push_back(motion_);
+  numbers.push_back(rest_);
+  return numbers;
+}
+
+void Coordinator::offer_plans(Outputs& out) const {
+  const auto numbers = plans_in_use();
+  for (const CarrierId id : carriers_) out.offers.push_back(plans_.offer(term_, id, numbers));
+}
+
+std::vector<CarrierId> Coordinator::unconfirmed(LocalTime now) const {
+  const std::uint64_t id = agreement_->transition().id;
+  const auto confirmed = [&](const protocol::AgentStatus& s) { return s.term == term_ && s.confirmed >= id; };
+  std::vector<CarrierId> out = fleet_.missing(now, confirmed);
+  // A lost agent cannot be asked. Whether to fly on without it was decided by the mission's policy, or by a person.
+  const std::vector<CarrierId> gone = lost(now);
+  const auto is_gone = [&gone](CarrierId c) { return std::find(gone.begin(), gone.end(), c) != gone.end(); };
+  out.erase(std::remove_if(out.begin(), out.end(), is_gone), out.end());
+  return out;
+}
+
+std::optional<std::string> Coordinator::refusal_of(const PlanNumber& plan) const {
+  for (const CarrierId id : carriers_) {
+    const protocol::AgentStatus* status = fleet_.status(id);
+    if (status != nullptr && status->refused == plan) return status->refusal;
+  }
+  return std::nullopt;
+}
+
+Duration Coordinator::skew_budget(const PlanNumber& plan) const {
+  const double budget_s =
+      mechanics::skew_budget_s(plans_.slices(plan), job_.plan.load.mass_kg * job_.plan.gravity_m_s2);
+  constexpr double kForever_s = 1e6;
+  return budget_s < kForever_s ? from_seconds(budget_s) : Duration::zero();
+}
+
+std::optional<std::string> Coordinator::obstacle(LocalTime now, const PlanNumber& to) const {
+  if (const auto refusal = refusal_of(to)) return "refused: " + *refusal;
+  if (course_.transitions.size() + 1 >= protocol::kMaxTransitions) return "too many transitions are under way; wait";
+  const Duration budget = skew_budget(to);
+  if (budget > Duration::zero() && skew(now) > budget) {
+    return text("the clocks may disagree by %.3g ms, the plan allows %.3g ms", 1e3 * seconds(skew(now)),
+                1e3 * seconds(budget));
+  }
+  return std::nullopt;
+}
+
+Intent Coordinator::intent_to(const PlanNumber& to, std::optional<std::uint64_t> command) const {
+  Intent intent;
+  intent.to = to;
+  intent.duration = job_.transition.value_or(options_.shortest_transition);
+  intent.may_slow_down = !job_.transition;
+  intent.command = command;
+  return intent;
+}
+
+// ---------------------------------------------------------------------------------------------------------- wanting
+
+void Coordinator::drive(LocalTime now, Outputs& out) {
+  if (agreement_) return pursue(now, out);
+  if (now < retry_at_) return;
+
+  const std::vector<CarrierId> gone = lost(now);
+  if (!gone.empty() && !frozen_for_loss_ && moving() && job_.on_agent_loss == AgentLoss::kFreeze && !shutting_down_) {
+    tell(out, Notice::Level::kError, "lost " + list(gone) + ": freezing where it stopped");
+    engage_ = false;
+    frozen_for_loss_ = true;
+    const auto last = fleet_.last_heard(gone.front());
+    return freeze(now, swarm_time(last.value_or(now)) + options_.coasting, false, std::nullopt, out);
+  }
+  if (shutting_down_) {
+    if (course_.transitions.empty() && !moving()) {
+      out.finished = Outcome{true, "the flight has ended at rest"};
+    } else if (release_failures_ >= options_.release_attempts) {
+      out.finished = Outcome{false, "the flight could not be brought to rest: agents do not answer"};
+    } else if (destination() != rest_ && moving()) {
+      begin(now, intent_to(rest_, std::nullopt));
+    }
+    return;
+  }
+  if (!engage_ || destination() != rest_) return;
+  const auto ready = [this](const protocol::AgentStatus& s) {
+    return std::find(s.accepted.begin(), s.accepted.end(), motion_) != s.accepted.end() &&
+           s.state == protocol::AgentState::kReady;
+  };
+  if (!refusal_of(motion_) && !fleet_.missing(now, ready).empty()) return;
+  if (const auto why = obstacle(now, motion_)) {
+    const std::string told = "the motion does not begin: " + *why;
+    if (told != news_) tell(out, Notice::Level::kWarning, told);
+    retry_at_ = now + options_.agreement.lead;
+    return;
+  }
+  begin(now, intent_to(motion_, std::nullopt));
+}
+
+void Coordinator::freeze(LocalTime now, SwarmTime moment, bool rehearsed, std::optional<std::uint64_t> command,
+                         Outputs& out) {
+  Slices still;
+  for (const CarrierId id : carriers_) {
+    const auto stack = layers(id, course_, moment);
+    if (!stack.empty()) still.emplace(id, mechanics::frozen_slice(stack, 0.0));
+  }
+  Intent intent;
+  intent.to = plans_.add(term_, std::move(still), "frozen");
+  intent.duration = options_.freezing;
+  intent.may_slow_down = true;
+  intent.rehearsed = rehearsed;
+  intent.command = command;
+  begin(now, intent);
+  offer_plans(out);
+}
+
+void Coordinator::begin(LocalTime now, Intent intent) {
+  agreement_.emplace(++last_transition_, intent, options_.agreement);
+  agreement_->schedule(swarm_time(now), carriers_.size());
+}
+
+// ------------------------------------------------------------------------------------------------------- transitions
+
+void Coordinator::pursue(LocalTime now, Outputs& out) {
+  const auto rehearse = [this] {
+    const Transition& t = agreement_->transition();
+    protocol::Course rehearsed = course_;
+    rehearsed.transitions.push_back(t);
+    rehearsed.transitions.back().stage = Stage::kGo;
+    std::vector<std::vector<mechanics::TimedLayer>> stacks;
+    for (const CarrierId id : carriers_) {
+      auto stack = layers(id, rehearsed, t.start);
+      if (!stack.empty()) stacks.push_back(std::move(stack));
+    }
+    agreement_->rehearse(Rehearsal(std::move(stacks), job_.plan.limits));
+  };
+  if (agreement_->needs_rehearsal()) rehearse();
+  const bool was_proposed = agreement_->proposed();
+  switch (agreement_->step(swarm_time(now), was_proposed ? unconfirmed(now) : std::vector<CarrierId>{})) {
+    case Agreement::Step::kWait:
+      break;
+    case Agreement::Step::kAgain:
+      agreement_->schedule(swarm_time(now), carriers_.size());
+      break;
+    case Agreement::Step::kPropose:
+      course_.transitions.push_back(agreement_->transition());
+      ++course_.revision;
+      plans_.keep(plans_in_use());
+      offer_plans(out);
+      break;
+    case Agreement::Step::kGo:
+      go(out);
+      break;
+    case Agreement::Step::kGiveUp:
+      give_up(now, out);
+      break;
+  }
+}
+
+void Coordinator::go(Outputs& out) {
+  const Transition& t = agreement_->transition();
+  course_.transitions.back() = t;
+  ++course_.revision;
+  const std::string told =
+      text("transition to the %s plan is go and takes %.3g s", plans_.name(t.to.number), seconds(t.duration));
+  tell(out, Notice::Level::kInfo, told);
+  if (agreement_->intent().command) out.replies.push_back({*agreement_->intent().command, true, told});
+  // A freeze is never turned back: holding still is where one would turn to.
+  if (agreement_->intent().rehearsed) starting_ = t.id;
+  if (t.to.number == motion_) engage_ = false;
+  release_failures_ = 0;
+  agreement_.reset();
+}
+
+void Coordinator::give_up(LocalTime now, Outputs& out) {
+  const Agreement& agreement = *agreement_;
+  if (agreement.proposed()) {
+    course_.transitions.pop_back();
+    ++course_.revision;
+  }
+  const auto refusal = refusal_of(agreement.intent().to);
+  const std::string told = text("transition to the %s plan given up: %s", plans_.name(agreement.intent().to),
+                                refusal ? ("refused: " + *refusal).c_str() : agreement.why().c_str());
+  tell(out, Notice::Level::kWarning, told);
+  if (agreement.intent().command) out.replies.push_back({*agreement.intent().command, false, told});
+  if (shutting_down_) ++release_failures_;
+  if (!agreement.intent().rehearsed) frozen_for_loss_ = false;  // try again: the load is still not held
+  retry_at_ = now + options_.agreement.lead;
+  agreement_.reset();
+  plans_.keep(plans_in_use());
+  offer_plans(out);
+}
+
+void Coordinator::check_start(LocalTime now, Outputs& out) {
+  if (!starting_) return;
+  const auto found = std::find_if(course_.transitions.begin(), course_.transitions.end(),
+                                  [this](const Transition& t) { return t.id == *starting_; });
+  if (found == course_.transitions.end()) {
+    starting_.reset();
+    return;
+  }
+  if (swarm_time(now) < found->start + options_.start_check) return;
+  const auto follows = [&](const protocol::AgentStatus& s) {
+    const auto& theirs = s.course.transitions;
+    return s.course.base.number == found->to.number ||
+           std::any_of(theirs.begin(), theirs.end(),
+                       [&](const Transition& t) { return t.id == found->id && t.stage == Stage::kGo; });
+  };
+  const std::vector<CarrierId> missing = fleet_.missing(now, follows);
+  starting_.reset();
+  if (missing.empty()) return;
+  tell(out, Notice::Level::kWarning,
+       list(missing) + (missing.size() == 1 ? " does" : " do") + " not follow the transition that began: turning back");
+  // The plan below is known to everybody: no need to ask. Who never began stays where the turn leads.
+  const auto index = static_cast<std::size_t>(found - course_.transitions.begin());
+  Transition back;
+  back.id = ++last_transition_;
+  back.to = index == 0 ? course_.base : course_.transitions[index - 1].to;
+  back.start = swarm_time(now) + options_.agreement.go_margin;
+  back.duration = options_.turning_back;
+  back.stage = Stage::kGo;
+  course_.transitions.push_back(back);
+  ++course_.revision;
+}
+
+}  // namespace gyre::coordinator

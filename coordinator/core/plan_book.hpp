@@ -1,0 +1,47 @@
+#pragma once
+// Every plan the coordinator may refer to, by number: what each carrier has to know of it, and what it is called.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/mechanics/carrier_slice.hpp"
+#include "common/protocol/messages.hpp"
+
+namespace gyre::coordinator {
+
+using Slices = std::map<CarrierId, mechanics::CarrierSlice>;
+
+/// By carrier id.
+[[nodiscard]] Slices by_carrier(const std::vector<mechanics::CarrierSlice>& slices);
+
+class PlanBook {
+ public:
+  /// Under the next revision of this term.
+  protocol::PlanNumber add(std::uint64_t term, Slices slices, const std::string& name);
+  /// A plan learned back from the agents, under the number they know it by.
+  void learn(const protocol::PlanNumber& number, Slices slices);
+  /// The number of a learned plan that is this one, carrier by carrier; it takes the name, and what it lacked.
+  [[nodiscard]] std::optional<protocol::PlanNumber> recognise(const Slices& slices, const std::string& name);
+
+  /// nullptr when not known, or not known for this carrier.
+  [[nodiscard]] const mechanics::CarrierSlice* slice(const protocol::PlanNumber& number, CarrierId carrier) const;
+  [[nodiscard]] std::vector<mechanics::CarrierSlice> slices(const protocol::PlanNumber& number) const;
+  [[nodiscard]] const char* name(const protocol::PlanNumber& number) const;
+
+  /// Forgets all others.
+  void keep(const std::vector<protocol::PlanNumber>& numbers);
+  /// What this carrier has to know, the first kMaxPlans of `numbers`.
+  [[nodiscard]] protocol::PlanOffer offer(std::uint64_t term, CarrierId carrier,
+                                          const std::vector<protocol::PlanNumber>& numbers) const;
+
+ private:
+  struct Entry {
+    Slices slices;
+    std::string name;
+  };
+  std::map<protocol::PlanNumber, Entry> plans_;
+  std::uint64_t last_revision_ = 0;
+};
+
+}  // namespace gyre::coordinator

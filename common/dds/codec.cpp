@@ -8,7 +8,36 @@ namespace idl = fast::idl;
 
 // The bounds of gyre_msgs.idl, which has to repeat the protocol's as literals.
 static_assert(protocol::kMaxTransitions == 4 && protocol::kMaxPlans == 5, "the sequences of gyre_msgs.idl");
+static_assert(kMaxCarrierId == 100, "the silent carriers of gyre_msgs.idl");
 static_assert(protocol::kMaxTextBytes == 255 && protocol::kMaxMissionBytes == 32768, "the strings of gyre_msgs.idl");
+
+namespace {
+
+// The list of slices that an offer and what is held of it have in common.
+template <class WireMessage>
+[[nodiscard]] bool put_slices(const std::vector<protocol::NumberedSlice>& slices, WireMessage& wire) {
+  if (slices.size() > protocol::kMaxPlans) return false;
+  for (const protocol::NumberedSlice& numbered : slices) {
+    idl::NumberedSlice& entry = wire.slices().emplace_back();
+    entry.number(to_wire(numbered.number));
+    entry.slice(to_wire(numbered.slice));
+  }
+  return true;
+}
+
+template <class WireMessage>
+[[nodiscard]] std::optional<std::vector<protocol::NumberedSlice>> slices_of(const WireMessage& wire) {
+  if (wire.slices().size() > protocol::kMaxPlans) return std::nullopt;
+  std::vector<protocol::NumberedSlice> slices;
+  for (const idl::NumberedSlice& entry : wire.slices()) {
+    const auto slice = from_wire(entry.slice());
+    if (!slice) return std::nullopt;
+    slices.push_back({from_wire(entry.number()), *slice});
+  }
+  return slices;
+}
+
+}  // namespace
 
 std::string fitting_text(const std::string& text, std::size_t bytes) {
   std::size_t end = text.find('\0');
@@ -40,27 +69,31 @@ std::optional<protocol::Beacon> decode(const idl::Beacon& wire) {
 }
 
 std::optional<idl::PlanOffer> encode(const protocol::PlanOffer& message) {
-  if (message.slices.size() > protocol::kMaxPlans) return std::nullopt;
   idl::PlanOffer wire;
   wire.carrier(message.carrier);
   wire.term(message.term);
-  for (const protocol::NumberedSlice& numbered : message.slices) {
-    idl::NumberedSlice& entry = wire.slices().emplace_back();
-    entry.number(to_wire(numbered.number));
-    entry.slice(to_wire(numbered.slice));
-  }
+  if (!put_slices(message.slices, wire)) return std::nullopt;
   return wire;
 }
 
 std::optional<protocol::PlanOffer> decode(const idl::PlanOffer& wire) {
-  if (wire.slices().size() > protocol::kMaxPlans) return std::nullopt;
-  protocol::PlanOffer message{wire.carrier(), wire.term(), {}};
-  for (const idl::NumberedSlice& entry : wire.slices()) {
-    const auto slice = from_wire(entry.slice());
-    if (!slice) return std::nullopt;
-    message.slices.push_back({from_wire(entry.number()), *slice});
-  }
-  return message;
+  const auto slices = slices_of(wire);
+  if (!slices) return std::nullopt;
+  return protocol::PlanOffer{wire.carrier(), wire.term(), *slices};
+}
+
+std::optional<idl::HeldPlans> encode(const protocol::HeldPlans& message) {
+  idl::HeldPlans wire;
+  wire.carrier(message.carrier);
+  wire.incarnation(message.incarnation);
+  if (!put_slices(message.slices, wire)) return std::nullopt;
+  return wire;
+}
+
+std::optional<protocol::HeldPlans> decode(const idl::HeldPlans& wire) {
+  const auto slices = slices_of(wire);
+  if (!slices) return std::nullopt;
+  return protocol::HeldPlans{wire.carrier(), wire.incarnation(), *slices};
 }
 
 std::optional<idl::TimeRequest> encode(const protocol::TimeRequest& message) {
@@ -257,6 +290,51 @@ std::optional<idl::CommandReply> encode(const protocol::CommandReply& message) {
 
 std::optional<protocol::CommandReply> decode(const idl::CommandReply& wire) {
   return protocol::CommandReply{wire.id(), wire.done(), wire.text().to_string()};
+}
+
+std::optional<idl::CoordinatorStatus> encode(const protocol::CoordinatorStatus& message) {
+  if (message.silent.size() > kMaxCarrierId) return std::nullopt;
+  idl::CoordinatorStatus wire;
+  wire.term(message.term);
+  wire.swarm_time_ns(ns(message.swarm_time));
+  wire.mission(fitting_text(message.mission, protocol::kMaxTextBytes));
+  wire.rest(to_wire(message.rest));
+  wire.motion(to_wire(message.motion));
+  wire.skew_budget_ns(message.skew_budget.count());
+  wire.skew_ns(message.skew.count());
+  wire.silent(message.silent);
+  wire.news(fitting_text(message.news, protocol::kMaxTextBytes));
+  return wire;
+}
+
+std::optional<protocol::CoordinatorStatus> decode(const idl::CoordinatorStatus& wire) {
+  if (wire.silent().size() > kMaxCarrierId) return std::nullopt;
+  protocol::CoordinatorStatus message;
+  message.term = wire.term();
+  message.swarm_time = swarm(wire.swarm_time_ns());
+  message.mission = wire.mission().to_string();
+  message.rest = from_wire(wire.rest());
+  message.motion = from_wire(wire.motion());
+  message.skew_budget = Duration(wire.skew_budget_ns());
+  message.skew = Duration(wire.skew_ns());
+  message.silent = wire.silent();
+  message.news = wire.news().to_string();
+  return message;
+}
+
+std::optional<idl::Health> encode(const protocol::Health& message) {
+  idl::Health wire;
+  wire.process(fitting_text(message.process, protocol::kMaxTextBytes));
+  wire.dropped(to_wire(message.dropped));
+  wire.undecodable(message.undecodable);
+  wire.unsendable(message.unsendable);
+  wire.overrun(message.overrun);
+  return wire;
+}
+
+std::optional<protocol::Health> decode(const idl::Health& wire) {
+  return protocol::Health{wire.process().to_string(), from_wire(wire.dropped()), wire.undecodable(), wire.unsendable(),
+                          wire.overrun()};
 }
 
 }  // namespace gyre::dds

@@ -1,21 +1,15 @@
 #pragma once
 // Where listener threads leave what arrived and the one main loop picks it up.
 
-#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <mutex>
 #include <utility>
 
-#include "common/base/time.hpp"
+#include "common/dds/clock.hpp"
 
 namespace gyre::dds {
-
-/// This process's steady clock. The one place where a main loop reads the time it hands to its core.
-[[nodiscard]] inline LocalTime now() {
-  return LocalTime(std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
-}
 
 /// A bounded queue: when full, the oldest goes, because the newest is what a flight needs. `dropped()` counts them.
 template <class Event>
@@ -37,8 +31,7 @@ class Inbox {
 
   /// Everything that has arrived, at the latest at `deadline`; empty then.
   [[nodiscard]] std::deque<Event> wait_until(LocalTime deadline) {
-    const std::chrono::steady_clock::time_point until(
-        std::chrono::duration_cast<std::chrono::steady_clock::duration>(deadline.time_since_epoch()));
+    const std::chrono::steady_clock::time_point until = steady_time(deadline);
     std::unique_lock<std::mutex> lock(mutex_);
     arrived_.wait_until(lock, until, [this] { return !events_.empty(); });
     return std::exchange(events_, {});

@@ -4,8 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "common/dds/clock.hpp"
 #include "common/dds/codec.hpp"
-#include "common/dds/inbox.hpp"
 #include "common/dds/participant.hpp"
 #include "common/dds/seat_lock.hpp"
 #include "common/dds/strict_type.hpp"
@@ -174,6 +174,7 @@ int Writer<Message>::readers() const {
 
 GYRE_CARRY(protocol::Beacon)
 GYRE_CARRY(protocol::PlanOffer)
+GYRE_CARRY(protocol::HeldPlans)
 GYRE_CARRY(protocol::TimeRequest)
 GYRE_CARRY(protocol::TimeReply)
 GYRE_CARRY(protocol::AgentStatus)
@@ -182,6 +183,8 @@ GYRE_CARRY(protocol::CarrierState)
 GYRE_CARRY(protocol::LoadState)
 GYRE_CARRY(protocol::Command)
 GYRE_CARRY(protocol::CommandReply)
+GYRE_CARRY(protocol::CoordinatorStatus)
+GYRE_CARRY(protocol::Health)
 #undef GYRE_CARRY
 
 }  // namespace gyre::dds

@@ -18,6 +18,7 @@ enum class Delivery {
   kState,     ///< reliable, keep last 1: the newest arrives, older ones may be skipped
   kRetained,  ///< reliable, keep last 1, transient local: a late joiner gets the newest too
   kEach,      ///< reliable, volatile: every one, for whoever listens when it is sent
+  kFromMany,  ///< best effort, keep last 1 at each of many writers on one topic; readers have room for all of them
 };
 
 struct Topic {
@@ -34,6 +35,7 @@ inline constexpr Topic kTopic = Message::this_message_has_no_topic;
 // clang-format off
 template <> inline constexpr Topic kTopic<protocol::Beacon>       {"phase",         "gyre_msgs::msg::dds_::Beacon_",          false, Delivery::kNewest};
 template <> inline constexpr Topic kTopic<protocol::PlanOffer>    {"plan",          "gyre_msgs::msg::dds_::PlanOffer_",       true,  Delivery::kRetained};
+template <> inline constexpr Topic kTopic<protocol::HeldPlans>    {"held",          "gyre_msgs::msg::dds_::HeldPlans_",       true,  Delivery::kRetained};
 template <> inline constexpr Topic kTopic<protocol::TimeRequest>  {"time_request",  "gyre_msgs::msg::dds_::TimeRequest_",     true,  Delivery::kNewest};
 template <> inline constexpr Topic kTopic<protocol::TimeReply>    {"time_reply",    "gyre_msgs::msg::dds_::TimeReply_",       true,  Delivery::kNewest};
 template <> inline constexpr Topic kTopic<protocol::AgentStatus>  {"status",        "gyre_msgs::msg::dds_::AgentStatus_",     true,  Delivery::kState};
@@ -42,10 +44,12 @@ template <> inline constexpr Topic kTopic<protocol::CarrierState> {"state",     
 template <> inline constexpr Topic kTopic<protocol::LoadState>    {"load/state",    "gyre_msgs::msg::dds_::LoadState_",       false, Delivery::kNewest};
 template <> inline constexpr Topic kTopic<protocol::Command>      {"command",       "gyre_msgs::msg::dds_::Command_",         false, Delivery::kEach};
 template <> inline constexpr Topic kTopic<protocol::CommandReply> {"command_reply", "gyre_msgs::msg::dds_::CommandReply_",    false, Delivery::kEach};
+template <> inline constexpr Topic kTopic<protocol::CoordinatorStatus> {"coordinator/status", "gyre_msgs::msg::dds_::CoordinatorStatus_", false, Delivery::kState};
+template <> inline constexpr Topic kTopic<protocol::Health>       {"health",        "gyre_msgs::msg::dds_::Health_",          false, Delivery::kFromMany};
 // clang-format on
 
 [[nodiscard]] constexpr bool reliable(Delivery delivery) {
-  return delivery != Delivery::kNewest;
+  return delivery != Delivery::kNewest && delivery != Delivery::kFromMany;
 }
 
 /// How many samples a writer keeps to send again.
@@ -53,8 +57,10 @@ template <> inline constexpr Topic kTopic<protocol::CommandReply> {"command_repl
   return delivery == Delivery::kEach ? 16 : 1;
 }
 
-/// Room for samples that arrive back to back, before the listener has taken the first.
+/// Room for samples that arrive back to back, before the listener has taken the first. A reader of an unkeyed topic
+/// keeps the samples of all its writers in one history.
 [[nodiscard]] constexpr int reader_depth(Delivery delivery) {
+  if (delivery == Delivery::kFromMany) return 128;  // every agent there can be, and the hubs
   return delivery == Delivery::kEach ? 16 : 4;
 }
 

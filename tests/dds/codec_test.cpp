@@ -26,8 +26,8 @@ using namespace protocol;  // NOLINT(google-build-using-namespace): the messages
 template <class Message>
 class EveryMessage : public testing::Test {};
 
-using Messages = testing::Types<Beacon, PlanOffer, TimeRequest, TimeReply, AgentStatus, Setpoint, CarrierState,
-                                LoadState, Command, CommandReply>;
+using Messages = testing::Types<Beacon, PlanOffer, HeldPlans, TimeRequest, TimeReply, AgentStatus, Setpoint,
+                                CarrierState, LoadState, Command, CommandReply, CoordinatorStatus, Health>;
 TYPED_TEST_SUITE(EveryMessage, Messages);
 
 /// A message through the generated serialisation as well, as it crosses the wire.
@@ -151,6 +151,14 @@ TEST(Codec, ListsOverTheirBoundNeitherGoNorCome) {
   PlanOffer offer;
   offer.slices.resize(kMaxPlans + 1);
   EXPECT_FALSE(dds::encode(offer));
+  HeldPlans held;
+  held.slices.resize(kMaxPlans + 1);
+  EXPECT_FALSE(dds::encode(held));
+  CoordinatorStatus coordinator;
+  coordinator.silent.resize(kMaxCarrierId);
+  EXPECT_TRUE(dds::encode(coordinator));
+  coordinator.silent.resize(kMaxCarrierId + 1);
+  EXPECT_FALSE(dds::encode(coordinator));
   AgentStatus status;
   status.accepted.resize(kMaxPlans + 1);
   EXPECT_FALSE(dds::encode(status));
@@ -167,6 +175,14 @@ TEST(Codec, ListsOverTheirBoundNeitherGoNorCome) {
   EXPECT_TRUE(dds::decode(wire_offer));
   wire_offer.slices().push_back(entry);
   EXPECT_FALSE(dds::decode(wire_offer));
+  auto wire_held = *dds::encode(HeldPlans{});
+  wire_held.slices().resize(kMaxPlans, entry);
+  EXPECT_TRUE(dds::decode(wire_held));
+  wire_held.slices().push_back(entry);
+  EXPECT_FALSE(dds::decode(wire_held));
+  auto wire_coordinator = *dds::encode(CoordinatorStatus{});
+  wire_coordinator.silent().resize(kMaxCarrierId + 1);
+  EXPECT_FALSE(dds::decode(wire_coordinator));
   auto wire_status = *dds::encode(AgentStatus{});
   wire_status.accepted().resize(kMaxPlans + 1);
   EXPECT_FALSE(dds::decode(wire_status));
@@ -186,6 +202,10 @@ TEST(Codec, EnumeratorsThatDoNotExistAreNoMessage) {
     ASSERT_TRUE(dds::decode(offer));
     offer.slices().front().slice().law().kind(static_cast<std::uint8_t>(value));
     EXPECT_FALSE(dds::decode(offer)) << value;
+    auto held = *dds::encode(HeldPlans{1, 1, {NumberedSlice{}}});
+    ASSERT_TRUE(dds::decode(held));
+    held.slices().front().slice().law().kind(static_cast<std::uint8_t>(value));
+    EXPECT_FALSE(dds::decode(held)) << value;
     auto status = *dds::encode(AgentStatus{});
     ASSERT_TRUE(dds::decode(status));
     status.state(static_cast<std::uint8_t>(value));
@@ -214,6 +234,10 @@ TEST(Codec, TextsAreCutBetweenCharacters) {
   EXPECT_EQ(dds::fitting_text(std::string("a\0b", 3), 255), "a");
   const CommandReply reply{1, true, std::string(kMaxTextBytes - 1, 'x') + "λ"};
   EXPECT_EQ(dds::decode(*dds::encode(reply))->text, std::string(kMaxTextBytes - 1, 'x'));
+  CoordinatorStatus status;
+  status.mission = status.news = reply.text;
+  EXPECT_EQ(dds::decode(*dds::encode(status))->mission, std::string(kMaxTextBytes - 1, 'x'));
+  EXPECT_EQ(dds::decode(*dds::encode(status))->news, std::string(kMaxTextBytes - 1, 'x'));
 }
 
 TEST(Topics, FollowRosNamesAndNameTheCarrier) {
@@ -227,6 +251,9 @@ TEST(Topics, FollowRosNamesAndNameTheCarrier) {
   EXPECT_EQ(dds::topic_name(dds::kTopic<LoadState>, std::nullopt), "rt/gyre/load/state");
   EXPECT_EQ(dds::topic_name(dds::kTopic<Command>, std::nullopt), "rt/gyre/command");
   EXPECT_EQ(dds::topic_name(dds::kTopic<CommandReply>, std::nullopt), "rt/gyre/command_reply");
+  EXPECT_EQ(dds::topic_name(dds::kTopic<HeldPlans>, 3), "rt/gyre/carrier_3/held");
+  EXPECT_EQ(dds::topic_name(dds::kTopic<CoordinatorStatus>, std::nullopt), "rt/gyre/coordinator/status");
+  EXPECT_EQ(dds::topic_name(dds::kTopic<Health>, std::nullopt), "rt/gyre/health");
 }
 
 TYPED_TEST(EveryMessage, IsRegisteredUnderItsGeneratedTypesRosName) {

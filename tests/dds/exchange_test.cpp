@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "common/dds/health_reporter.hpp"
 #include "common/dds/inbox.hpp"
 #include "common/dds/participant.hpp"
 #include "common/dds/topics.hpp"
@@ -62,8 +63,8 @@ std::optional<Message> wait_for(dds::Inbox<Message>& inbox, Done done, Again aga
 template <class Message>
 class EveryMessage : public testing::Test {};
 
-using Messages = testing::Types<Beacon, PlanOffer, TimeRequest, TimeReply, AgentStatus, Setpoint, CarrierState,
-                                LoadState, Command, CommandReply>;
+using Messages = testing::Types<Beacon, PlanOffer, HeldPlans, TimeRequest, TimeReply, AgentStatus, Setpoint,
+                                CarrierState, LoadState, Command, CommandReply, CoordinatorStatus, Health>;
 TYPED_TEST_SUITE(EveryMessage, Messages);
 
 TYPED_TEST(EveryMessage, ArrivesBitForBit) {
@@ -105,6 +106,78 @@ TEST(Plan, ReachesWhoComesLate) {
       inbox, [](const PlanOffer&) { return true; }, [] {});
   ASSERT_TRUE(first);
   EXPECT_EQ(first->term, 2U) << "the newest, and only that";
+}
+
+TEST(HeldPlans, ReachARestartedCoordinator) {
+  dds::NodeOptions options;
+  dds::Inbox<protocol::HeldPlans> inbox;
+  auto coordinator = tests::open_coordinator(options);
+  const auto agent = tests::open(options, {std::nullopt, kCarrier});
+  ASSERT_TRUE(coordinator && agent);
+  agent->writer<protocol::HeldPlans>(kCarrier).write({kCarrier, 7, {{{1, 2}, {}}}});
+  coordinator.reset();
+  coordinator = tests::open(options, {dds::Hub::kCoordinator, std::nullopt});
+  ASSERT_TRUE(coordinator);
+  coordinator->read<protocol::HeldPlans>([&](protocol::HeldPlans held, LocalTime) { inbox.push(std::move(held)); },
+                                         kCarrier);
+  const auto held = wait_for(
+      inbox, [](const protocol::HeldPlans&) { return true; }, [] {});
+  ASSERT_TRUE(held);
+  EXPECT_EQ(held->incarnation, 7U);
+  ASSERT_EQ(held->slices.size(), 1U);
+  EXPECT_EQ(held->slices.front().number, (PlanNumber{1, 2}));
+}
+
+TEST(Health, IsHeardOfManyProcessesOnOneTopic) {
+  constexpr std::size_t kProcesses = 64;
+  EXPECT_GE(static_cast<std::size_t>(dds::reader_depth(dds::kTopic<protocol::Health>.delivery)), kProcesses);
+  dds::NodeOptions options;
+  dds::Inbox<protocol::Health> inbox;
+  const auto ground = tests::open_coordinator(options);
+  const auto swarm = tests::open(options, {std::nullopt, kCarrier});
+  ASSERT_TRUE(ground && swarm);
+  ground->read<protocol::Health>([&](protocol::Health health, LocalTime) { inbox.push(std::move(health)); });
+  std::vector<dds::Writer<protocol::Health>> processes(kProcesses);
+  for (auto& writer : processes) writer = swarm->writer<protocol::Health>();
+  std::set<std::string> heard;
+  EXPECT_TRUE(wait_for(
+      inbox,
+      [&](const protocol::Health& health) { return heard.insert(health.process).second && heard.size() == kProcesses; },
+      [&] {
+        for (std::size_t i = 0; i < kProcesses; ++i) {
+          protocol::Health health;
+          health.process = "agent " + std::to_string(i + 1);
+          processes[i].write(health);
+        }
+      }))
+      << heard.size() << " heard";
+}
+
+TEST(Health, IsReportedOncePerPeriodWithEveryCount) {
+  dds::NodeOptions options;
+  dds::Inbox<protocol::Health> inbox;
+  const auto ground = tests::open_coordinator(options);
+  const auto node = tests::open(options, {std::nullopt, kCarrier});
+  ASSERT_TRUE(ground && node);
+  ground->read<protocol::Health>([&](protocol::Health health, LocalTime) { inbox.push(std::move(health)); });
+  node->writer<Beacon>().write({0, 0, {}, {0, {}, std::vector<Transition>(kMaxTransitions + 1)}});
+
+  // The steps are half a period apart: the even ones are due, the odd ones are not. `overrun` tells them apart.
+  dds::HealthReporter reporter(*node, "agent 3");
+  std::uint64_t step = 0;
+  std::set<std::uint64_t> arrived;
+  const auto last = wait_for(
+      inbox,
+      [&](const protocol::Health& health) { return arrived.insert(health.overrun).second && arrived.size() == 5; },
+      [&] {
+        for (int i = 0; i < 2; ++i, ++step) {
+          reporter.step(LocalTime(step * dds::HealthReporter::kPeriod / 2), {1, 2, 3, 4}, step);
+        }
+      });
+  ASSERT_TRUE(last);
+  for (const std::uint64_t overrun : arrived) EXPECT_EQ(overrun % 2, 0U) << "was not due";
+  const protocol::Health expected{"agent 3", {1, 2, 3, 4}, 0, 1, last->overrun};
+  EXPECT_EQ(tests::bits_of(*last), tests::bits_of(expected));
 }
 
 TEST(Visitor, FindsAnAgentWhereThereIsNoHub) {

@@ -32,6 +32,7 @@ template <class V> void each_field(mechanics::LengthLaw& m, V& v) { auto& [a, b,
 template <class V> void each_field(mechanics::CarrierSlice& m, V& v) { auto& [a, b, c, d, e, f, g, h] = m; visit_all(v, a, b, c, d, e, f, g, h); }
 template <class V> void each_field(protocol::NumberedSlice& m, V& v) { auto& [a, b] = m; visit_all(v, a, b); }
 template <class V> void each_field(protocol::PlanOffer& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
+template <class V> void each_field(protocol::HeldPlans& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
 template <class V> void each_field(protocol::TimeRequest& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
 template <class V> void each_field(protocol::TimeReply& m, V& v) { auto& [a, b, c, d, e, f, g] = m; visit_all(v, a, b, c, d, e, f, g); }
 template <class V> void each_field(protocol::DropCounts& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
@@ -47,6 +48,8 @@ template <class V> void each_field(protocol::CarrierState& m, V& v) { auto& [a, 
 template <class V> void each_field(protocol::LoadState& m, V& v) { auto& [a, b, c, d, e, f] = m; visit_all(v, a, b, c, d, e, f); }
 template <class V> void each_field(protocol::Command& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
 template <class V> void each_field(protocol::CommandReply& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
+template <class V> void each_field(protocol::CoordinatorStatus& m, V& v) { auto& [a, b, c, d, e, f, g, h, i] = m; visit_all(v, a, b, c, d, e, f, g, h, i); }
+template <class V> void each_field(protocol::Health& m, V& v) { auto& [a, b, c, d, e] = m; visit_all(v, a, b, c, d, e); }
 // clang-format on
 
 /// Fills fields with anything their type can hold; a third of the numbers are extremes. Runs inside a property.
@@ -100,8 +103,9 @@ struct Randomiser {
   }
   template <class T>
   void operator()(std::vector<T>& field) {
-    constexpr std::size_t kBound =
-        std::is_same_v<T, protocol::Transition> ? protocol::kMaxTransitions : protocol::kMaxPlans;
+    constexpr std::size_t kBound = std::is_same_v<T, protocol::Transition> ? protocol::kMaxTransitions
+                                   : std::is_same_v<T, CarrierId>          ? kMaxCarrierId
+                                                                           : protocol::kMaxPlans;
     field.resize(*rc::gen::inRange<std::size_t>(0, kBound + 1));
     for (T& entry : field) (*this)(entry);
   }

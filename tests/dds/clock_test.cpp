@@ -1,0 +1,145 @@
+// Laws of the clock that can be made wrong: what it shows, when it shows it, and that waiting heeds both.
+
+#include "common/dds/clock.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "common/dds/clock_options.hpp"
+#include "common/dds/inbox.hpp"
+
+namespace gyre {
+namespace {
+
+using namespace std::chrono_literals;
+using Steady = dds::ClockError::Steady;
+
+constexpr Duration kHundredDays = 24h * 100;
+
+/// A clock with any error there may be, and a moment on the machine's clock.
+struct Case {
+  dds::ClockError error;
+  Steady moment;
+};
+
+Case any_case() {
+  const auto offset = Duration(*rc::gen::inRange<std::int64_t>(-1'000'000'000'000'000, 1'000'000'000'000'001));
+  const double drift_ppm = 1e-3 * *rc::gen::inRange(-10'000'000, 10'000'001);
+  const auto since = Duration(*rc::gen::inRange<std::int64_t>(0, kHundredDays.count()));
+  const auto elapsed = Duration(*rc::gen::inRange<std::int64_t>(-1'000'000'000, kHundredDays.count()));
+  return {dds::ClockError(offset, drift_ppm, Steady(since)), Steady(since + elapsed)};
+}
+
+TEST(ClockError, IsNoneUnlessThereIsOne) {
+  const dds::ClockError none;
+  const Steady moment(123'456'789'012'345'678ns);
+  EXPECT_EQ(none.shown_at(moment).time_since_epoch(), moment.time_since_epoch());
+  EXPECT_EQ(none.moment_of(none.shown_at(moment)), moment);
+}
+
+TEST(ClockError, AddsTheOffsetAtOnceAndTheDriftAsTimePasses) {
+  const dds::ClockError error(-2h, 100.0, Steady(5s));
+  EXPECT_EQ(error.shown_at(Steady(5s)), LocalTime(5s - 2h));
+  EXPECT_EQ(error.shown_at(Steady(5s + 1000s)), LocalTime(5s + 1000s + 100ms - 2h));
+  const dds::ClockError slow(0s, -200.0, Steady(0s));
+  EXPECT_EQ(slow.shown_at(Steady(10s)), LocalTime(10s - 2ms));
+}
+
+RC_GTEST_PROP(ClockError, NeverRunsBackwards, ()) {
+  const auto [error, moment] = any_case();
+  for (const Duration step : {1ns, 2ns, 99ns, 100ns, 101ns}) {
+    RC_ASSERT(error.shown_at(moment) <= error.shown_at(moment + step));
+  }
+}
+
+RC_GTEST_PROP(ClockError, KnowsTheFirstMomentAtWhichItShowsATime, ()) {
+  const auto [error, moment] = any_case();
+  const LocalTime shown = error.shown_at(moment) + Duration(*rc::gen::inRange(-1000, 1000));
+  const Steady first = error.moment_of(shown);
+  RC_ASSERT(error.shown_at(first) >= shown);
+  RC_ASSERT(error.shown_at(first - Duration(1)) < shown);
+}
+
+class ProcessClock : public testing::Test {
+ protected:
+  void TearDown() override { dds::set_clock_error({}, 0.0); }
+};
+
+TEST_F(ProcessClock, IsTheMachinesUnlessMadeWrong) {
+  const Steady before = std::chrono::steady_clock::now();
+  const Duration shown = dds::now().time_since_epoch();
+  const Steady after = std::chrono::steady_clock::now();
+  EXPECT_LE(before.time_since_epoch(), shown);
+  EXPECT_GE(after.time_since_epoch(), shown);
+}
+
+TEST_F(ProcessClock, IsWrongByWhatItIsTold) {
+  for (const Duration offset : {Duration(-5h), Duration(5h)}) {
+    dds::set_clock_error(offset, 0.0);
+    const Steady before = std::chrono::steady_clock::now();
+    const Duration shown = dds::now().time_since_epoch() - offset;
+    const Steady after = std::chrono::steady_clock::now();
+    EXPECT_LE(before.time_since_epoch(), shown);
+    EXPECT_GE(after.time_since_epoch(), shown);
+  }
+}
+
+// With the deadline taken for the machine's, this would not wait at all, or for hours.
+TEST_F(ProcessClock, IsWhatAnInboxsDeadlineIsOn) {
+  for (const Duration offset : {Duration(-5h), Duration(5h)}) {
+    dds::set_clock_error(offset, -dds::kMaxClockDrift_ppm);
+    dds::Inbox<int> inbox;
+    const LocalTime deadline = dds::now() + 2ms;
+    EXPECT_TRUE(inbox.wait_until(deadline).empty());
+    EXPECT_GE(dds::now(), deadline);
+  }
+}
+
+class ClockOptionsTest : public ProcessClock {
+ protected:
+  void TearDown() override {
+    ProcessClock::TearDown();
+    for (const char* name : {"GYRE_CLOCK_OFFSET_S", "GYRE_CLOCK_DRIFT_PPM"}) ::unsetenv(name);
+  }
+
+  static dds::ClockOptions parse(std::vector<std::string> arguments) {
+    CLI::App app("test");
+    dds::ClockOptions options;
+    dds::add_clock_options(app, options);
+    std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // what CLI11 takes
+    app.parse(reversed);
+    return options;
+  }
+};
+
+TEST_F(ClockOptionsTest, LeaveTheClockAloneUnlessTold) {
+  EXPECT_TRUE(dds::apply(parse({})).empty());
+  EXPECT_EQ(dds::steady_time(LocalTime(7s)), Steady(7s));
+}
+
+TEST_F(ClockOptionsTest, MakeTheClockWrongAndSaySo) {
+  ::setenv("GYRE_CLOCK_DRIFT_PPM", "-150", 1);
+  const dds::ClockOptions options = parse({"--clock-offset-s", "-7200.5"});
+  EXPECT_EQ(options.offset_s, -7200.5);
+  EXPECT_EQ(options.drift_ppm, -150.0);
+  const Notices notices = dds::apply(options);
+  ASSERT_EQ(notices.size(), 1U);
+  EXPECT_EQ(notices.front().level, Notice::Level::kWarning);
+  EXPECT_NE(notices.front().text.find("-7200.5 s and -150 ppm"), std::string::npos) << notices.front().text;
+  EXPECT_LT(dds::now().time_since_epoch(), std::chrono::steady_clock::now().time_since_epoch() - 7200s);
+}
+
+TEST_F(ClockOptionsTest, RefuseWhatNoClockCanBeWrongBy) {
+  for (const char* wrong : {"nan", "inf", "-inf", "1e7", "-1e7", "much", ""}) {
+    EXPECT_THROW(parse({"--clock-offset-s", wrong}), CLI::ParseError) << wrong;
+    EXPECT_THROW(parse({"--clock-drift-ppm", wrong}), CLI::ParseError) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace gyre

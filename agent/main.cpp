@@ -10,6 +10,8 @@
 #include "agent/vehicle/vehicle_options.hpp"
 #include "common/base/interrupts.hpp"
 #include "common/base/log.hpp"
+#include "common/dds/clock_options.hpp"
+#include "common/dds/health_reporter.hpp"
 #include "common/dds/inbox.hpp"
 #include "common/dds/network_options.hpp"
 
@@ -26,7 +28,8 @@ enum ExitCode { kGood = 0, kFailed = 1, kBadUsage = 2 };
 /// The wire side: what the agent hears goes into the inbox, what it says goes out through the writers.
 class Wire {
  public:
-  Wire(std::unique_ptr<gyre::dds::Node> opened, gyre::CarrierId carrier) : node_(std::move(opened)) {
+  Wire(std::unique_ptr<gyre::dds::Node> opened, gyre::CarrierId carrier)
+      : node_(std::move(opened)), health_(*node_, "agent " + std::to_string(carrier)) {
     gyre::dds::Node& node = *node_;
     setpoint_ = node.writer<protocol::Setpoint>(carrier);
     status_ = node.writer<protocol::AgentStatus>(carrier);
@@ -51,9 +54,12 @@ class Wire {
     if (out.status) status_.write(*out.status);
   }
 
+  void report_health(const protocol::DropCounts& dropped) { health_.step(gyre::dds::now(), dropped, inbox_.dropped()); }
+
  private:
   gyre::dds::Inbox<Event> inbox_;  // outlives the node, whose handlers fill it
   std::unique_ptr<gyre::dds::Node> node_;
+  gyre::dds::HealthReporter health_;
   gyre::dds::Writer<protocol::Setpoint> setpoint_;
   gyre::dds::Writer<protocol::AgentStatus> status_;
   gyre::dds::Writer<protocol::TimeRequest> time_request_;
@@ -85,6 +91,7 @@ int run(const gyre::agent::AgentOptions& options, const gyre::dds::NetworkOption
     for (const Event& event : wire.wait_until(next_tick)) step(event);
     agent.count_undecodable(wire.undecodable());
     step(gyre::agent::Tick{});
+    wire.report_health(agent.dropped());
   }
   spdlog::info("carrier {}: ended on request", options.carrier);
   return kGood;
@@ -99,6 +106,7 @@ int main(int argc, char** argv) {
   gyre::agent::AgentOptions options;
   std::string log_level = "info";
   gyre::dds::NetworkOptions network;
+  gyre::dds::ClockOptions clock;
   app.add_option("--carrier", options.carrier, "this carrier's id in the mission, 1 to 100")
       ->required()
       ->check(CLI::Range(gyre::CarrierId{1}, gyre::kMaxCarrierId))
@@ -108,6 +116,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   gyre::agent::add_vehicle_options(app, options.vehicle);
   gyre::dds::add_network_options(app, network);
+  gyre::dds::add_clock_options(app, clock);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
@@ -117,6 +126,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", started.error().text.c_str());
     return kBadUsage;
   }
+  gyre::log(gyre::dds::apply(clock));
   // The moment of the start tells one life of this agent from the next.
   options.incarnation = static_cast<std::uint64_t>(gyre::dds::now().time_since_epoch().count());
   return run(options, network);

@@ -10,6 +10,8 @@
 
 #include "common/base/interrupts.hpp"
 #include "common/base/log.hpp"
+#include "common/dds/clock_options.hpp"
+#include "common/dds/health_reporter.hpp"
 #include "common/dds/inbox.hpp"
 #include "common/dds/network_options.hpp"
 #include "common/mechanics/certificate.hpp"
@@ -30,7 +32,8 @@ enum ExitCode { kGood = 0, kRefused = 1, kBadUsage = 2 };
 /// The wire side: what the coordinator hears goes into the inbox, what it says goes out through the writers.
 class Wire {
  public:
-  Wire(std::unique_ptr<gyre::dds::Node> opened, const gyre::mechanics::Plan& plan) : node_(std::move(opened)) {
+  Wire(std::unique_ptr<gyre::dds::Node> opened, const gyre::mechanics::Plan& plan)
+      : node_(std::move(opened)), health_(*node_, "coordinator") {
     gyre::dds::Node& node = *node_;
     beacon_ = node.writer<protocol::Beacon>();
     replies_ = node.writer<protocol::CommandReply>();
@@ -60,9 +63,12 @@ class Wire {
     for (const protocol::CommandReply& reply : out.replies) replies_.write(reply);
   }
 
+  void report_health(const protocol::DropCounts& dropped) { health_.step(gyre::dds::now(), dropped, inbox_.dropped()); }
+
  private:
   gyre::dds::Inbox<Event> inbox_;  // outlives the node, whose handlers fill it
   std::unique_ptr<gyre::dds::Node> node_;
+  gyre::dds::HealthReporter health_;
   gyre::dds::Writer<protocol::Beacon> beacon_;
   gyre::dds::Writer<protocol::CommandReply> replies_;
   std::map<gyre::CarrierId, gyre::dds::Writer<protocol::TimeReply>> time_replies_;
@@ -82,6 +88,7 @@ Outcome conduct(Coordinator& coordinator, Wire& wire) {
   for (int interrupts = 0; !finished;) {
     for (const Event& event : wire.wait_until(next_tick)) step(event);
     step(gyre::coordinator::Tick{});
+    wire.report_health(coordinator.dropped());
     for (int more = gyre::take_interrupts(); more > 0; --more) {
       if (++interrupts > 1) return {false, "interrupted twice: ended at once, the load is left as it is"};
       step(gyre::coordinator::Shutdown{});
@@ -135,12 +142,14 @@ int main(int argc, char** argv) {
   std::string log_level = "info";
   bool engage = false;
   gyre::dds::NetworkOptions network;
+  gyre::dds::ClockOptions clock;
   app.add_option("MISSION", mission, "mission file (protobuf text format)")->required();
   app.add_flag("--engage", engage, "start the motion as soon as every agent is ready")->envname("GYRE_ENGAGE");
   app.add_option("--log-level", log_level, "trace, debug, info, warning, error or off")
       ->envname("GYRE_LOG_LEVEL")
       ->capture_default_str();
   gyre::dds::add_network_options(app, network);
+  gyre::dds::add_clock_options(app, clock);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
@@ -150,5 +159,6 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", started.error().text.c_str());
     return kBadUsage;
   }
+  gyre::log(gyre::dds::apply(clock));
   return run(mission, network, engage);
 }

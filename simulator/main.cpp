@@ -9,6 +9,8 @@
 
 #include "common/base/interrupts.hpp"
 #include "common/base/log.hpp"
+#include "common/dds/clock_options.hpp"
+#include "common/dds/health_reporter.hpp"
 #include "common/dds/inbox.hpp"
 #include "common/dds/network_options.hpp"
 #include "common/mission/mission.hpp"
@@ -32,7 +34,8 @@ struct SetpointArrived {
 /// The wire side: setpoints go into the inbox with the time they arrived, states go out through the writers.
 class Wire {
  public:
-  Wire(std::unique_ptr<gyre::dds::Node> opened, const gyre::mechanics::Plan& plan) : node_(std::move(opened)) {
+  Wire(std::unique_ptr<gyre::dds::Node> opened, const gyre::mechanics::Plan& plan)
+      : node_(std::move(opened)), health_(*node_, "simulator") {
     gyre::dds::Node& node = *node_;
     load_ = node.writer<protocol::LoadState>();
     for (const gyre::mechanics::Carrier& carrier : plan.carriers) {
@@ -57,9 +60,12 @@ class Wire {
     if (out.load) load_.write(*out.load);
   }
 
+  void report_health(const protocol::DropCounts& dropped) { health_.step(gyre::dds::now(), dropped, inbox_.dropped()); }
+
  private:
   gyre::dds::Inbox<SetpointArrived> inbox_;  // outlives the node, whose handlers fill it
   std::unique_ptr<gyre::dds::Node> node_;
+  gyre::dds::HealthReporter health_;
   gyre::dds::Writer<protocol::LoadState> load_;
   std::vector<gyre::dds::Writer<protocol::CarrierState>> carriers_;  // in the plan's order
 };
@@ -101,6 +107,7 @@ void simulate(Simulator& simulator, Wire& wire) {
     const Outputs out = simulator.step(now, gyre::simulator::Advance{});
     wire.send(out);
     report(out);
+    wire.report_health(simulator.dropped());
   }
 }
 
@@ -143,11 +150,13 @@ int main(int argc, char** argv) {
   std::string mission;
   std::string log_level = "info";
   gyre::dds::NetworkOptions network;
+  gyre::dds::ClockOptions clock;
   app.add_option("MISSION", mission, "mission file (protobuf text format)")->required();
   app.add_option("--log-level", log_level, "trace, debug, info, warning, error or off")
       ->envname("GYRE_LOG_LEVEL")
       ->capture_default_str();
   gyre::dds::add_network_options(app, network);
+  gyre::dds::add_clock_options(app, clock);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
@@ -157,5 +166,6 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", started.error().text.c_str());
     return kBadUsage;
   }
+  gyre::log(gyre::dds::apply(clock));
   return run(mission, network);
 }

@@ -103,8 +103,13 @@ struct Simulator::World {
   void report_drops(LocalTime now, Outputs& out) {
     if (!unreported_drops || !drop_reports.due(now)) return;
     unreported_drops = false;
-    out.dropped = DropReport{judge.dropped(), latest_objection};
-    out.dropped->counts.late += overrun;
+    out.dropped = DropReport{dropped(), latest_objection};
+  }
+
+  [[nodiscard]] protocol::DropCounts dropped() const {
+    protocol::DropCounts counts = judge.dropped();
+    counts.late += overrun;
+    return counts;
   }
 
   void advance(LocalTime now, Outputs& out) {
@@ -239,6 +244,10 @@ const LoadMotion& Simulator::load() const {
 
 Duration Simulator::simulated() const {
   return world_->simulated();
+}
+
+protocol::DropCounts Simulator::dropped() const {
+  return world_->dropped();
 }
 
 }  // namespace gyre::simulator

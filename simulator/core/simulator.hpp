@@ -87,6 +87,7 @@ class Simulator {
 
   [[nodiscard]] const LoadMotion& load() const;
   [[nodiscard]] Duration simulated() const;
+  [[nodiscard]] protocol::DropCounts dropped() const;
 
  private:
   struct World;

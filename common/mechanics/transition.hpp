@@ -51,7 +51,7 @@ template <class S>
   if (count == 1) return evaluate(*layers[0].slice, layers[0].t_s);
 
   const auto mix = [](const Taylor<S>& x, const auto& below, const auto& above) {
-    return (constant(S(1)) - x) * below + x * above;
+    return below + x * (above - below);  // as in the formula, but what both agree on cancels, to the bit
   };
   TaylorVector<S> f = force(*layers[0].slice, layers[0].t_s);
   for (std::size_t i = 1; i < count; ++i) f = mix(layers[i].weight, f, force(*layers[i].slice, layers[i].t_s));

@@ -64,9 +64,18 @@ class Window {
   [[nodiscard]] const Range& range(Figure figure) const { return outer_[figure]; }
 
  private:
+  /// The greatest magnitude a figure is compared with: a winch that stands still is judged by the speed it is part of,
+  /// a level altitude by the length it is kept with, or no cell would ever be small enough.
+  [[nodiscard]] double scale(std::size_t figure) const {
+    const auto magnitude = [this](std::size_t i) { return std::max(std::abs(inner_[i].min), std::abs(inner_[i].max)); };
+    if (figure == kWinchRate) return std::max(magnitude(kWinchRate), magnitude(kSpeed));
+    if (figure == kAltitude) return std::max(magnitude(kAltitude), magnitude(kLength));
+    return magnitude(figure);
+  }
+
   [[nodiscard]] bool tight(const Enclosure& enclosure) const {
     for (std::size_t i = 0; i < kFigures; ++i) {
-      const double slack = kTransitionSlack * std::max(std::abs(inner_[i].min), std::abs(inner_[i].max));
+      const double slack = (i == kAcceleration ? kAccelerationSlack : kTransitionSlack) * scale(i);
       if (enclosure[i].lower() < inner_[i].min - slack || enclosure[i].upper() > inner_[i].max + slack) return false;
     }
     return true;

@@ -16,6 +16,9 @@
 namespace gyre::mechanics {
 
 inline constexpr double kTransitionSlack = 2e-3;
+/// The acceleration is the last derivative carried: without the next one its enclosure shrinks with h only, and the
+/// same slack would cost five times the cells.
+inline constexpr double kAccelerationSlack = 1e-2;
 
 /// Over [begin_s, end_s] on the layers' clock. `direction_cosine_min` stays absent.
 [[nodiscard]] CarrierFigures transition_figures(const std::vector<TimedLayer>& layers, double begin_s, double end_s);

@@ -6,8 +6,10 @@ namespace gyre::coordinator {
 
 void Agreement::schedule(SwarmTime now, std::size_t carriers) {
   rehearsal_.reset();
-  const Duration rehearsal =
-      intent_.rehearsed ? options_.rehearsal_per_carrier * static_cast<Duration::rep>(carriers) : Duration::zero();
+  // Every further attempt gets more time: the last one may have failed for want of it, on a busy machine.
+  const Duration rehearsal = intent_.rehearsed
+                                 ? options_.rehearsal_per_carrier * static_cast<Duration::rep>(carriers) * attempt_
+                                 : Duration::zero();
   transition_.start = now + options_.lead + rehearsal;
   transition_.to.epoch = transition_.start;
 }

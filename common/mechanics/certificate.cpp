@@ -55,14 +55,15 @@ Certificate certify(const Plan& plan, const CertifyOptions& options) {
   if (options.non_stop) judge_construction(plan, all, certificate.reasons);
   certificate.wrench_error_max_n = wrench_error(plan, all);
   certificate.carriers.reserve(all.size());
-  bool bounded = true;
+  bool stretched = true;  // lengths are positive and bounded, as stiffness needs them
   for (const CarrierSlice& slice : all) {
     certificate.carriers.push_back(orbit_figures(slice));
-    bounded = bounded && std::isfinite(certificate.carriers.back().acceleration_max_m_s2);
+    const Range& length = certificate.carriers.back().length_m;
+    stretched = stretched && length.min > 0.0 && std::isfinite(length.max);
     judge_carrier(certificate.carriers.back(), plan.limits, options.non_stop, certificate.reasons);
   }
   if (options.separation) certificate.separation = orbit_separation(all, certificate);
-  if (options.stiffness && bounded) {
+  if (options.stiffness && stretched) {
     certificate.stiffness_min_1_s2 = least_stiffness(plan, all, certificate.period_s);
     certificate.skew = skew_budget(plan, all, certificate.period_s);
     if (certificate.stiffness_min_1_s2 <= 0.0) {

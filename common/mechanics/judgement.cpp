@@ -200,7 +200,7 @@ void judge_carrier(const CarrierFigures& f, const Limits& limits, bool non_stop,
            "lower the cycle's rate or the amplitudes"},
           f.acceleration_max_m_s2, limits.acceleration_max_m_s2, id, reasons);
   if (limits.vertical_cosine_min) {
-    const double least = std::max(f.vertical_cosine.min, -f.vertical_cosine.max);  // |q_z|, which keeps one sign
+    const double least = std::max({0.0, f.vertical_cosine.min, -f.vertical_cosine.max});  // |q_z|; 0 if it turns over
     at_least({Rule::kVerticalCosine, "vertical cosine |q_z|", "", "vertical_cosine_min",
               "lower the amplitudes of its edges"},
              least, limits.vertical_cosine_min, id, reasons);
@@ -219,6 +219,7 @@ void judge_carrier(const CarrierFigures& f, const Limits& limits, bool non_stop,
 
 void judge_formation(const Certificate& certificate, const Limits& limits, std::vector<Reason>& reasons) {
   const Separation& s = certificate.separation;
+  if (s.first == s.second) return;  // no pair, or a motion without bounds, which has its own reason
   if (limits.separation_min_m && s.min_m < *limits.separation_min_m) {
     refuse(reasons, Rule::kSeparation, s.first,
            text("carriers %u and %u come as close as %.6g m, below separation_min_m %.6g; set their altitudes or "

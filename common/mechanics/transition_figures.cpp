@@ -40,6 +40,13 @@ Interval norm(const std::array<Interval, 3>& v) {
                               boost::numeric::square(v[2]));
 }
 
+/// What is no number (an infinite length times no direction) is bounded by nothing.
+Range range_of(const Interval& interval) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (std::isnan(interval.lower()) || std::isnan(interval.upper())) return {-kInfinity, kInfinity};
+  return {interval.lower(), interval.upper()};
+}
+
 class Window {
  public:
   explicit Window(const std::vector<TimedLayer>& layers) : layers_(layers) {}
@@ -58,7 +65,7 @@ class Window {
       enclose(middle, end_s, narrowest_s);
       return;
     }
-    for (std::size_t i = 0; i < kFigures; ++i) outer_[i].include({enclosure[i].lower(), enclosure[i].upper()});
+    for (std::size_t i = 0; i < kFigures; ++i) outer_[i].include(range_of(enclosure[i]));
   }
 
   [[nodiscard]] const Range& range(Figure figure) const { return outer_[figure]; }
@@ -76,7 +83,8 @@ class Window {
   [[nodiscard]] bool tight(const Enclosure& enclosure) const {
     for (std::size_t i = 0; i < kFigures; ++i) {
       const double slack = (i == kAcceleration ? kAccelerationSlack : kTransitionSlack) * scale(i);
-      if (enclosure[i].lower() < inner_[i].min - slack || enclosure[i].upper() > inner_[i].max + slack) return false;
+      if (!(enclosure[i].lower() >= inner_[i].min - slack && enclosure[i].upper() <= inner_[i].max + slack))
+        return false;
     }
     return true;
   }
@@ -93,7 +101,9 @@ class Window {
     const Interval step(-h, h);
     const auto mean_value = [&step](double value, const Interval& slope, const Interval& plain) {
       const Interval centred = value + slope * step;
-      return Interval(std::max(centred.lower(), plain.lower()), std::min(centred.upper(), plain.upper()));
+      // Where a figure does not move, the two are points that differ by rounding and have nothing in common.
+      return boost::numeric::overlap(centred, plain) ? boost::numeric::intersect(centred, plain)
+                                                     : boost::numeric::hull(centred, plain);
     };
     std::array<Interval, 3> v;
     std::array<Interval, 3> a;

@@ -150,25 +150,32 @@ Plan random_plan(const RandomPlan& wish) {
   plan.load.inertia_b_kg_m2 = Eigen::Vector3d(real(0.01, 1.0), real(0.01, 1.0), real(0.01, 1.0)).asDiagonal();
   plan.load.position_w_m = {real(-10.0, 10.0), real(-10.0, 10.0), real(-10.0, 10.0)};
   if (wish.tilted) {
-    const Eigen::Vector3d axis(real(-1.0, 1.0), real(-1.0, 1.0), real(-0.1, 1.0));
+    const Eigen::Vector3d axis(real(-1.0, 1.0), real(-1.0, 1.0), real(0.1, 1.0));
     plan.load.orientation_w_b = Eigen::AngleAxisd(real(0.0, 0.3), axis.normalized());
   }
   plan.gravity_m_s2 = real(1.0, 20.0);
   plan.cable = {real(1e3, 1e5), 1e3};
-  plan.cycle.rate_rad_s = real(0.05, 2.0);
-
   // The centre of mass stays inside the polygon, or some cables would have to push.
   for (std::size_t i = 0; i < n; ++i) {
     const double angle = 2.0 * kPi * (static_cast<double>(i) + real(-0.3, 0.3)) / static_cast<double>(n);
     const double radius = real(0.8, 1.2);
     const Eigen::Vector3d b(radius * std::cos(angle), radius * std::sin(angle), real(0.1, 0.5));
-    const Eigen::Vector3d world = plan.load.position_w_m + plan.load.orientation_w_b * b;
-    plan.carriers.push_back({static_cast<CarrierId>(i + 1), b, random_law(world, wish.mixed_laws)});
+    plan.carriers.push_back({static_cast<CarrierId>(i + 1), b, {}});
+  }
+  return random_motion(plan, wish.mixed_laws);
+}
+
+Plan random_motion(Plan plan, bool mixed_laws) {
+  const std::size_t n = plan.carriers.size();
+  const std::vector<Eigen::Vector3d> arms = lever_arms(plan);
+  for (std::size_t i = 0; i < n; ++i) {
+    plan.carriers[i].law = random_law(plan.load.position_w_m + arms[i], mixed_laws);
   }
   std::vector<CarrierId> order(n);
   std::iota(order.begin(), order.end(), 1U);
   for (std::size_t i = n - 1; i > 0; --i) std::swap(order[i], order[whole(0, i)]);
   const double share = plan.load.mass_kg * plan.gravity_m_s2 / static_cast<double>(n);
+  plan.cycle = {real(0.05, 2.0), {}};
   for (std::size_t e = 0; e < n; ++e) {
     plan.cycle.edges.push_back(
         {order[e], order[(e + 1) % n], share * real(-0.5, 0.5), share * real(0.1, 0.6), real(-kPi, kPi)});

@@ -35,6 +35,9 @@ struct RandomPlan {
 /// A plan whose cables stay well away from slack and from their law's plane: every figure is finite.
 [[nodiscard]] Plan random_plan(const RandomPlan& wish = {});
 
+/// Another motion that holds the same load at the same attachments: other cycle, rate, forces and laws.
+[[nodiscard]] Plan random_motion(Plan plan, bool mixed_laws = true);
+
 /// Drawn evenly from [low, high].
 [[nodiscard]] double real(double low, double high);
 [[nodiscard]] std::size_t whole(std::size_t low, std::size_t high);

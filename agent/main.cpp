@@ -34,6 +34,7 @@ class Wire {
     setpoint_ = node.writer<protocol::Setpoint>(carrier);
     status_ = node.writer<protocol::AgentStatus>(carrier);
     time_request_ = node.writer<protocol::TimeRequest>(carrier);
+    held_ = node.writer<protocol::HeldPlans>(carrier);
     node.read<protocol::Beacon>([this](protocol::Beacon b, LocalTime) { inbox_.push(std::move(b)); });
     node.read<protocol::PlanOffer>([this](protocol::PlanOffer p, LocalTime) { inbox_.push(std::move(p)); }, carrier);
     node.read<protocol::TimeReply>(
@@ -51,6 +52,7 @@ class Wire {
   void send(const Outputs& out) {
     if (out.time_request) time_request_.write(*out.time_request);
     if (out.setpoint) setpoint_.write(*out.setpoint);
+    if (out.held) held_.write(*out.held);
     if (out.status) status_.write(*out.status);
   }
 
@@ -63,6 +65,7 @@ class Wire {
   gyre::dds::Writer<protocol::Setpoint> setpoint_;
   gyre::dds::Writer<protocol::AgentStatus> status_;
   gyre::dds::Writer<protocol::TimeRequest> time_request_;
+  gyre::dds::Writer<protocol::HeldPlans> held_;
 };
 
 int run(const gyre::agent::AgentOptions& options, const gyre::dds::NetworkOptions& network) {

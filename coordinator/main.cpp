@@ -29,6 +29,29 @@ namespace protocol = gyre::protocol;
 
 enum ExitCode { kGood = 0, kRefused = 1, kBadUsage = 2 };
 
+gyre::coordinator::Job job_of(const gyre::mission::Mission& mission) {
+  gyre::coordinator::Job job;
+  job.name = mission.name;
+  job.plan = mission.plan;
+  if (mission.transition_duration_s) job.transition = gyre::from_seconds(*mission.transition_duration_s);
+  job.on_agent_loss = mission.agent_loss == gyre::mission::AgentLoss::kFreeze ? gyre::coordinator::AgentLoss::kFreeze
+                                                                              : gyre::coordinator::AgentLoss::kContinue;
+  return job;
+}
+
+/// What arrived, as the core takes it: a mission that came over the wire is read and judged like one from a file.
+Event understood(const Event& event) {
+  const auto* command = std::get_if<protocol::Command>(&event);
+  if (command == nullptr || command->kind != protocol::CommandKind::kRetune) return event;
+  const auto mission = gyre::mission::parse_mission(command->mission, "mission");
+  if (!mission) return gyre::coordinator::Retune{command->id, mission.error()};
+  const gyre::mechanics::Certificate certificate = gyre::mechanics::certify(mission.value().plan);
+  if (!certificate.admissible()) {
+    return gyre::coordinator::Retune{command->id, gyre::Error{"refused: " + certificate.reasons.front().text}};
+  }
+  return gyre::coordinator::Retune{command->id, job_of(mission.value())};
+}
+
 /// The wire side: what the coordinator hears goes into the inbox, what it says goes out through the writers.
 class Wire {
  public:
@@ -37,6 +60,7 @@ class Wire {
     gyre::dds::Node& node = *node_;
     beacon_ = node.writer<protocol::Beacon>();
     replies_ = node.writer<protocol::CommandReply>();
+    status_ = node.writer<protocol::CoordinatorStatus>();
     for (const gyre::mechanics::Carrier& carrier : plan.carriers) {
       time_replies_[carrier.id] = node.writer<protocol::TimeReply>(carrier.id);
       offers_[carrier.id] = node.writer<protocol::PlanOffer>(carrier.id);
@@ -46,6 +70,8 @@ class Wire {
     for (const gyre::mechanics::Carrier& carrier : plan.carriers) {
       node.read<protocol::AgentStatus>([this](protocol::AgentStatus s, LocalTime) { inbox_.push(std::move(s)); },
                                        carrier.id);
+      node.read<protocol::HeldPlans>([this](protocol::HeldPlans h, LocalTime) { inbox_.push(std::move(h)); },
+                                     carrier.id);
       node.read<protocol::TimeRequest>(
           [this](const protocol::TimeRequest& r, LocalTime arrived) {
             inbox_.push(gyre::coordinator::TimeRequestArrived{r, arrived});
@@ -60,6 +86,7 @@ class Wire {
     if (out.time_reply) time_replies_.at(out.time_reply->carrier).write(*out.time_reply);
     for (const protocol::PlanOffer& offer : out.offers) offers_.at(offer.carrier).write(offer);
     if (out.beacon) beacon_.write(*out.beacon);
+    if (out.status) status_.write(*out.status);
     for (const protocol::CommandReply& reply : out.replies) replies_.write(reply);
   }
 
@@ -71,6 +98,7 @@ class Wire {
   gyre::dds::HealthReporter health_;
   gyre::dds::Writer<protocol::Beacon> beacon_;
   gyre::dds::Writer<protocol::CommandReply> replies_;
+  gyre::dds::Writer<protocol::CoordinatorStatus> status_;
   std::map<gyre::CarrierId, gyre::dds::Writer<protocol::TimeReply>> time_replies_;
   std::map<gyre::CarrierId, gyre::dds::Writer<protocol::PlanOffer>> offers_;
 };
@@ -86,7 +114,7 @@ Outcome conduct(Coordinator& coordinator, Wire& wire) {
     if (out.finished) finished = out.finished;
   };
   for (int interrupts = 0; !finished;) {
-    for (const Event& event : wire.wait_until(next_tick)) step(event);
+    for (const Event& event : wire.wait_until(next_tick)) step(understood(event));
     step(gyre::coordinator::Tick{});
     wire.report_health(coordinator.dropped());
     for (int more = gyre::take_interrupts(); more > 0; --more) {
@@ -119,13 +147,11 @@ int run(const std::string& path, const gyre::dds::NetworkOptions& network, bool 
     spdlog::error("{}", node.error().text);
     return kRefused;
   }
-  gyre::coordinator::Job job{mission.value().name, mission.value().plan, std::nullopt};
-  if (const auto duration_s = mission.value().transition_duration_s) job.transition = gyre::from_seconds(*duration_s);
   gyre::coordinator::CoordinatorOptions coordinator_options;
   coordinator_options.nonce = std::random_device{}();
   coordinator_options.engage_when_ready = engage;
 
-  Coordinator coordinator(job, coordinator_options);
+  Coordinator coordinator(job_of(mission.value()), coordinator_options);
   Wire wire(std::move(node).value(), mission.value().plan);
   const Outcome outcome = conduct(coordinator, wire);
   spdlog::log(outcome.clean ? spdlog::level::info : spdlog::level::err, "{}", outcome.text);

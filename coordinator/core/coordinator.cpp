@@ -132,8 +132,25 @@ void Coordinator::on(LocalTime /*now*/, const protocol::Beacon& beacon, Outputs&
   }
 }
 
+bool Coordinator::heard_before(std::uint64_t command, Outputs& out) {
+  if (last_command_ != command) {
+    last_command_ = command;
+    last_reply_.reset();
+    return false;
+  }
+  if (last_reply_) out.replies.push_back(*last_reply_);  // the answer was lost on its way
+  return true;
+}
+
+void Coordinator::answer(std::uint64_t command, bool done, const std::string& text, Outputs& out) {
+  const protocol::CommandReply reply{command, done, text.substr(0, protocol::kMaxTextBytes)};
+  if (last_command_ == command) last_reply_ = reply;
+  out.replies.push_back(reply);
+}
+
 void Coordinator::on(LocalTime now, const protocol::Command& command, Outputs& out) {
-  const auto refuse = [&](const std::string& why) { out.replies.push_back({command.id, false, why}); };
+  if (heard_before(command.id, out)) return;
+  const auto refuse = [&](const std::string& why) { answer(command.id, false, why, out); };
   if (term_ == 0) return refuse("the coordinator is still listening for a swarm that already flies; try again in 2 s");
   if (shutting_down_) return refuse("the flight is ending");
   if (agreement_) return refuse("a transition is being agreed; try again when it is done");
@@ -157,11 +174,13 @@ void Coordinator::on(LocalTime now, const protocol::Command& command, Outputs& o
 }
 
 void Coordinator::on(LocalTime now, const Retune& retune, Outputs& out) {
-  const auto refuse = [&](const std::string& why) { out.replies.push_back({retune.command, false, why}); };
-  if (term_ == 0 || shutting_down_ || agreement_) return refuse("not now: the coordinator is busy; try again");
-  if (const auto why = retune_obstacle(job_.plan, retune.job.plan)) return refuse("cannot retune: " + *why);
+  if (heard_before(retune.command, out)) return;
+  const auto refuse = [&](const std::string& why) { answer(retune.command, false, "cannot retune: " + why, out); };
+  if (term_ == 0 || shutting_down_ || agreement_) return refuse("the coordinator is busy; try again");
+  if (!retune.job) return refuse(retune.job.error().text);
+  if (const auto why = retune_obstacle(job_.plan, retune.job.value().plan)) return refuse(*why);
   const bool at_rest = destination() == rest_;
-  job_ = retune.job;
+  job_ = retune.job.value();
   rest_ = plans_.add(term_, by_carrier(mechanics::slices(mechanics::rest_plan(job_.plan))), "rest");
   motion_ = plans_.add(term_, by_carrier(mechanics::slices(job_.plan)), "motion");
   offer_plans(out);

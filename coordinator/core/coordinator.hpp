@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "common/base/notice.hpp"
+#include "common/base/result.hpp"
 #include "common/mechanics/plan.hpp"
 #include "common/protocol/messages.hpp"
 #include "coordinator/core/agreement.hpp"
@@ -60,10 +61,10 @@ struct TimeRequestArrived {
   protocol::TimeRequest request;
   LocalTime arrived{};
 };
-/// A command whose mission was read and certified outside.
+/// A retune whose mission was read and certified outside: the job, or why there is none.
 struct Retune {
   std::uint64_t command = 0;
-  Job job;
+  Result<Job> job;
 };
 /// End the flight: back to rest, then finish.
 struct Shutdown {};
@@ -106,6 +107,8 @@ class Coordinator {
   void on(LocalTime now, const protocol::Beacon& beacon, Outputs& out);
   void on(LocalTime now, const Shutdown& shutdown, Outputs& out);
 
+  [[nodiscard]] bool heard_before(std::uint64_t command, Outputs& out);
+  void answer(std::uint64_t command, bool done, const std::string& text, Outputs& out);
   void listen(LocalTime now, Outputs& out);
   void take_term(LocalTime now, Outputs& out);
   void watch_agents(LocalTime now, Outputs& out);
@@ -160,6 +163,8 @@ class Coordinator {
   bool shutting_down_ = false;
   int release_failures_ = 0;
   std::string news_;
+  std::optional<std::uint64_t> last_command_;  ///< senders say a command again until it is answered
+  std::optional<protocol::CommandReply> last_reply_;
   protocol::DropCounts dropped_;
 };
 

@@ -198,7 +198,7 @@ void Coordinator::go(Outputs& out) {
   const std::string told =
       text("transition to the %s plan is go and takes %.3g s", plans_.name(t.to.number), seconds(t.duration));
   tell(out, Notice::Level::kInfo, told);
-  if (agreement_->intent().command) out.replies.push_back({*agreement_->intent().command, true, told});
+  if (agreement_->intent().command) answer(*agreement_->intent().command, true, told, out);
   // A freeze is never turned back: holding still is where one would turn to.
   if (agreement_->intent().rehearsed) starting_ = t.id;
   if (t.to.number == motion_) engage_ = false;
@@ -216,7 +216,7 @@ void Coordinator::give_up(LocalTime now, Outputs& out) {
   const std::string told = text("transition to the %s plan given up: %s", plans_.name(agreement.intent().to),
                                 refusal ? ("refused: " + *refusal).c_str() : agreement.why().c_str());
   tell(out, Notice::Level::kWarning, told);
-  if (agreement.intent().command) out.replies.push_back({*agreement.intent().command, false, told});
+  if (agreement.intent().command) answer(*agreement.intent().command, false, told, out);
   if (shutting_down_) ++release_failures_;
   if (!agreement.intent().rehearsed) frozen_for_loss_ = false;  // try again: the load is still not held
   retry_at_ = now + options_.agreement.lead;

@@ -5,6 +5,7 @@
 #include "common/base/text.hpp"
 #include "common/protocol/course.hpp"
 #include "common/protocol/sanity.hpp"
+#include "common/protocol/term.hpp"
 
 namespace gyre::agent {
 
@@ -81,8 +82,8 @@ bool Agent::accepts_term(std::uint64_t term, Outputs& out) {
   }
   if (term > term_) {
     if (term_ != 0) {
-      out.notices.push_back({Notice::Level::kInfo,
-                             text("a new coordinator took over: term %llu", static_cast<unsigned long long>(term))});
+      out.notices.push_back(
+          {Notice::Level::kInfo, text("a new coordinator took over: term %llu", protocol::generation(term))});
       // It learned swarm time from us and the others; it may be off by what we are apart.
       clock_.doubt(std::chrono::milliseconds(1));
     }

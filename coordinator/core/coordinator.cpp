@@ -8,10 +8,12 @@
 #include "common/mechanics/rest_plan.hpp"
 #include "common/protocol/course.hpp"
 #include "common/protocol/sanity.hpp"
+#include "common/protocol/term.hpp"
 
 namespace gyre::coordinator {
 
 using protocol::CommandKind;
+using protocol::generation;
 
 namespace {
 
@@ -19,13 +21,6 @@ std::vector<CarrierId> ids(const mechanics::Plan& plan) {
   std::vector<CarrierId> out;
   for (const mechanics::Carrier& carrier : plan.carriers) out.push_back(carrier.id);
   return out;
-}
-
-/// Terms count up in their upper bits; the lower ones tell apart coordinators that took the same one.
-constexpr int kNonceBits = 16;
-
-unsigned long long generation(std::uint64_t term) {
-  return term >> kNonceBits;
 }
 
 }  // namespace
@@ -213,8 +208,7 @@ void Coordinator::listen(LocalTime now, Outputs& out) {
 }
 
 void Coordinator::take_term(LocalTime now, Outputs& out) {
-  const std::uint64_t nonce = options_.nonce & ((1U << kNonceBits) - 1);
-  term_ = (((recovery_.highest_term() >> kNonceBits) + 1) << kNonceBits) | nonce;
+  term_ = protocol::next_term(recovery_.highest_term(), options_.nonce);
   last_transition_ = recovery_.last_transition();
   for (const auto& [number, slices] : recovery_.plans()) plans_.learn(number, slices);
 

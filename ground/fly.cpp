@@ -100,6 +100,18 @@ int fly(const FlyOptions& options) {
   return fly_certified(options, mission.value());
 }
 
+/// CLI::Range would let NaN through.
+CLI::Validator a_duration() {
+  constexpr double kShortest_s = 0.1;
+  constexpr double kLongest_s = 7.0 * 86400.0;
+  const auto judge = [](const std::string& words) {
+    double value_s = 0.0;
+    const bool good = CLI::detail::lexical_cast(words, value_s) && value_s >= kShortest_s && value_s <= kLongest_s;
+    return good ? std::string() : words + " is no duration: give seconds from 0.1 to 604800 (a week)";
+  };
+  return {judge, "SECONDS"};
+}
+
 }  // namespace
 
 void add_fly(CLI::App& app, int& exit_code) {
@@ -108,9 +120,8 @@ void add_fly(CLI::App& app, int& exit_code) {
       "fly", "Fly a mission on this machine: coordinator, simulator and one agent per carrier, and a verdict.");
   command->add_option("MISSION", options->mission, "mission file, Protobuf text format (idl/mission.proto)")
       ->required();
-  constexpr double kLongest = 7.0 * 86400.0;
   command->add_option("--duration", options->duration_s, "seconds of full motion (else one period of the mission)")
-      ->check(CLI::Range(0.1, kLongest));
+      ->check(a_duration());
   command->add_option("--logs", options->logs, "directory for one log per process; kept (else a temporary one)");
   command->add_flag("--keep-logs", options->keep_logs, "keep the logs of a good flight too");
   dds::add_network_options(*command, options->network);

@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "simulator/core/random_stream.hpp"
+#include "common/base/random_stream.hpp"
 
 namespace gyre::simulator {
 

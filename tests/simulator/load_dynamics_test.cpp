@@ -7,9 +7,9 @@
 #include <Eigen/Eigenvalues>
 #include <cstdio>
 
+#include "common/base/random_stream.hpp"
 #include "common/mechanics/grasp.hpp"
 #include "simulator/core/planned_surroundings.hpp"
-#include "simulator/core/random_stream.hpp"
 #include "tests/simulator/rigs.hpp"
 
 namespace gyre::simulator {

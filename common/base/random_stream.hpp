@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace gyre::simulator {
+namespace gyre {
 
 class RandomStream {
  public:
@@ -54,4 +54,4 @@ class RandomStream {
   std::array<std::uint64_t, 4> state_{};
 };
 
-}  // namespace gyre::simulator
+}  // namespace gyre

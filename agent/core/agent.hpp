@@ -58,6 +58,7 @@ class Agent {
   /// Samples that never reached the core, so that all that is dropped is counted in one place.
   void count_undecodable(std::uint64_t total) { undecodable_ = total; }
   [[nodiscard]] const protocol::DropCounts& dropped() const { return dropped_; }
+  [[nodiscard]] const protocol::Course& course() const { return course_; }  ///< what it flies
 
  private:
   void on(LocalTime now, const Tick& tick, Outputs& out);

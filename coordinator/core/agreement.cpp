@@ -40,7 +40,7 @@ Agreement::Step Agreement::rehearsal_done(SwarmTime now) {
 
 Agreement::Step Agreement::step(SwarmTime now, const std::vector<CarrierId>& unconfirmed) {
   if (!proposed_) {
-    if (!intent_.rehearsed) {
+    if (!rehearsed()) {
       proposed_ = true;
       return Step::kPropose;
     }

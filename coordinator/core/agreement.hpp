@@ -18,7 +18,8 @@ struct AgreementOptions {
   Duration lead = std::chrono::milliseconds(600);       ///< from proposal to start
   Duration go_margin = std::chrono::milliseconds(150);  ///< before the start nothing is decided any more
   Duration rehearsal_per_carrier = std::chrono::milliseconds(40);
-  int attempts = 5;  ///< rehearsals, each at twice the duration of the last
+  int attempts = 5;      ///< rehearsals, each at twice the duration of the last
+  bool rehearse = true;  ///< off in flights on virtual time, where thousands fly and no vehicle can be hurt
 };
 
 /// What a transition is for.
@@ -44,7 +45,7 @@ class Agreement {
 
   /// Sets the start anew, `carriers` rehearsals and a lead ahead; a motion begins there at phase zero.
   void schedule(SwarmTime now, std::size_t carriers);
-  [[nodiscard]] bool needs_rehearsal() const { return intent_.rehearsed && !proposed_ && !rehearsal_; }
+  [[nodiscard]] bool needs_rehearsal() const { return rehearsed() && !proposed_ && !rehearsal_; }
   void rehearse(Rehearsal rehearsal) { rehearsal_.emplace(std::move(rehearsal)); }
 
   enum class Step {
@@ -60,6 +61,7 @@ class Agreement {
   [[nodiscard]] const std::string& why() const { return why_; }
 
  private:
+  [[nodiscard]] bool rehearsed() const { return options_.rehearse && intent_.rehearsed; }
   Step give_up(std::string why);
   Step rehearsal_done(SwarmTime now);
 

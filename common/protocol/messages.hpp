@@ -13,63 +13,9 @@
 #include "common/base/ids.hpp"
 #include "common/base/time.hpp"
 #include "common/mechanics/carrier_slice.hpp"
+#include "common/protocol/course.hpp"
 
 namespace gyre::protocol {
-
-/// A plan's number. The term is the coordinator's that made it; revision 0 means "no plan".
-struct PlanNumber {
-  std::uint64_t term = 0;
-  std::uint64_t revision = 0;
-
-  [[nodiscard]] bool none() const { return revision == 0; }
-  friend bool operator==(const PlanNumber& a, const PlanNumber& b) {
-    return a.term == b.term && a.revision == b.revision;
-  }
-  friend bool operator!=(const PlanNumber& a, const PlanNumber& b) { return !(a == b); }
-  friend bool operator<(const PlanNumber& a, const PlanNumber& b) {
-    return a.term != b.term ? a.term < b.term : a.revision < b.revision;
-  }
-};
-
-/// A plan on the swarm's clock: theta = rate · (now − epoch).
-struct TimedPlan {
-  PlanNumber number;
-  SwarmTime epoch{};
-
-  friend bool operator==(const TimedPlan& a, const TimedPlan& b) { return a.number == b.number && a.epoch == b.epoch; }
-};
-
-/// A transition is proposed until every agent has confirmed it, then it is go; a revoked one is simply not there.
-enum class Stage : std::uint8_t { kProposed = 1, kGo = 2 };
-
-struct Transition {
-  std::uint64_t id = 0;
-  TimedPlan to;
-  SwarmTime start{};
-  Duration duration{};
-  Stage stage = Stage::kProposed;
-
-  [[nodiscard]] SwarmTime end() const { return start + duration; }
-  friend bool operator==(const Transition& a, const Transition& b) {
-    return a.id == b.id && a.to == b.to && a.start == b.start && a.duration == b.duration && a.stage == b.stage;
-  }
-};
-
-/// More than this many transitions are never under way at once: engage, turn back, freeze, and one to spare.
-inline constexpr std::size_t kMaxTransitions = 4;
-/// The plans a course can refer to: its base and one per transition.
-inline constexpr std::size_t kMaxPlans = kMaxTransitions + 1;
-
-/// What the swarm flies, whole: a plan at the bottom and the transitions that lie on it (mechanics/transition.hpp).
-struct Course {
-  std::uint64_t revision = 0;  ///< grows with every change within a term
-  TimedPlan base;
-  std::vector<Transition> transitions;
-
-  friend bool operator==(const Course& a, const Course& b) {
-    return a.revision == b.revision && a.base == b.base && a.transitions == b.transitions;
-  }
-};
 
 /// Topic phase, coordinator to all. Complete in itself: one received is enough to know everything.
 struct Beacon {
@@ -211,13 +157,14 @@ struct CommandReply {
 struct CoordinatorStatus {
   std::uint64_t term = 0;
   SwarmTime swarm_time{};
-  std::string mission;            ///< its name; at most kMaxTextBytes
-  PlanNumber rest;                ///< the plan that the load rests by
-  PlanNumber motion;              ///< the plan of the mission in force
-  Duration skew_budget{};         ///< clock disagreement the plan in force allows; 0: any
-  Duration skew{};                ///< the greatest disagreement the agents' uncertainties leave possible
-  std::vector<CarrierId> silent;  ///< at most kMaxCarrierId
-  std::string news;               ///< the latest of what it has to tell; at most kMaxTextBytes
+  std::string mission;              ///< its name; at most kMaxTextBytes
+  PlanNumber rest;                  ///< the plan that the load rests by
+  PlanNumber motion;                ///< the plan of the mission in force
+  Duration skew_budget{};           ///< clock disagreement the plan in force allows; 0: any
+  Duration skew{};                  ///< the greatest disagreement the agents' uncertainties leave possible
+  std::vector<CarrierId> carriers;  ///< of the mission; at most kMaxCarrierId
+  std::vector<CarrierId> silent;    ///< at most kMaxCarrierId
+  std::string news;                 ///< the latest of what it has to tell; at most kMaxTextBytes
 };
 
 /// Topic health, every process to ground: what it dropped, and why.

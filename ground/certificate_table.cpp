@@ -104,6 +104,15 @@ std::string separation_line(const Limits& limits, const Certificate& certificate
   return marked(line, separation.min_m < *limits.separation_min_m);
 }
 
+std::string skew_line(const mechanics::SkewBudget& skew) {
+  if (!std::isfinite(skew.budget_s)) return "of any size";
+  return "up to " + number_text(1e3 * skew.budget_s) + " ms keep the residual under " +
+         text("%.0f %%", 100.0 * mechanics::kSkewShare) + " of the weight; " + number_text(skew.residual_n_per_s) +
+         " N and " + number_text(1e3 * skew.displacement_m_per_s) + " mm per second of it\n" + "  holdover           " +
+         number_text(skew.holdover_s) + " s with clocks " + text("%.0f", 1e6 * mechanics::kHoldoverDrift) +
+         " ppm apart";
+}
+
 }  // namespace
 
 std::string certificate_table(const std::string& mission_name, const Limits& limits, const Certificate& certificate) {
@@ -119,6 +128,7 @@ std::string certificate_table(const std::string& mission_name, const Limits& lim
   out += "  separation         " + separation_line(limits, certificate) + "\n";
   out += "  wrench error       " + text("%.2g", certificate.wrench_error_max_n) + " N at most\n";
   out += "  load stiffness     " + number_text(certificate.stiffness_min_1_s2) + " 1/s^2 at its softest\n";
+  out += "  clock skew         " + skew_line(certificate.skew) + "\n";
   if (!certificate.admissible()) out += "\nWhy, and what would cure it:\n" + listed(certificate.reasons);
   if (!certificate.cautions.empty()) out += "\nNot forbidden, but look at it:\n" + listed(certificate.cautions);
   return out;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "common/mechanics/transition_figures.hpp"
 #include "common/mechanics/rest_plan.hpp"
+#include "common/mechanics/transition_figures.hpp"
 #include "common/protocol/course.hpp"
 
 namespace gyre::ground {

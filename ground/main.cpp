@@ -8,6 +8,7 @@
 #include "ground/fly.hpp"
 #include "ground/sample.hpp"
 #include "ground/swarm_command.hpp"
+#include "ground/swarm_status.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app{"Gyre: a load that hangs still while the vehicles that carry it never stop.", "gyre"};
@@ -19,6 +20,7 @@ int main(int argc, char** argv) {
   gyre::ground::add_sample(app, exit_code);
   gyre::ground::add_fly(app, exit_code);
   gyre::ground::add_swarm_commands(app, exit_code);
+  gyre::ground::add_status(app, exit_code);
 
   try {
     app.parse(argc, argv);

@@ -9,6 +9,7 @@
 #include "common/dds/inbox.hpp"
 #include "common/dds/network_options.hpp"
 #include "common/dds/node.hpp"
+#include "common/mission/mission.hpp"
 #include "common/protocol/messages.hpp"
 #include "ground/command.hpp"
 
@@ -17,7 +18,8 @@ namespace {
 
 using protocol::CommandKind;
 
-constexpr Duration kPatience = std::chrono::seconds(5);
+/// A transition is answered when it is agreed: several rehearsals, on a busy machine.
+constexpr Duration kPatience = std::chrono::seconds(20);
 /// The reply's way back may be found after the command's way there, so the same command is said again, with its id.
 constexpr Duration kRepeat = std::chrono::milliseconds(250);
 
@@ -53,7 +55,7 @@ std::optional<protocol::CommandReply> ask(dds::Node& node, const protocol::Comma
   return std::nullopt;
 }
 
-int send(CommandKind kind, const dds::NetworkOptions& options) {
+int send(CommandKind kind, const std::string& mission, const dds::NetworkOptions& options) {
   const Result<dds::NodeOptions> chosen = dds::node_options(options, {});
   if (!chosen) {
     std::fprintf(stderr, "%s\n", chosen.error().text.c_str());
@@ -64,7 +66,7 @@ int send(CommandKind kind, const dds::NetworkOptions& options) {
     std::fprintf(stderr, "%s\n", node.error().text.c_str());
     return kExitRefused;
   }
-  const auto reply = ask(*node.value(), {fresh_id(), kind, ""});
+  const auto reply = ask(*node.value(), {fresh_id(), kind, mission});
   if (!reply) {
     std::fprintf(stderr, "No coordinator answered on domain %d within %.0f s.\n%s\n", chosen.value().domain,
                  seconds(kPatience), coordinators_elsewhere().c_str());
@@ -72,6 +74,31 @@ int send(CommandKind kind, const dds::NetworkOptions& options) {
   }
   std::fprintf(reply->done ? stdout : stderr, "%s\n", reply->text.c_str());
   return reply->done ? kExitOk : kExitRefused;
+}
+
+/// The mission is read here first: a bad file is answered on the spot, with its lines.
+int retune(const std::string& path, const dds::NetworkOptions& options) {
+  const Result<mission::Mission> read = mission::read_mission_file(path);
+  if (!read) {
+    std::fprintf(stderr, "%s\n", read.error().text.c_str());
+    return kExitBadUsage;
+  }
+  const std::string text = mission::to_text(read.value());
+  if (text.size() > protocol::kMaxMissionBytes) {
+    std::fprintf(stderr, "%s: %zu bytes are more than the %zu a retune can carry; fewer carriers, or a new flight\n",
+                 path.c_str(), text.size(), protocol::kMaxMissionBytes);
+    return kExitBadUsage;
+  }
+  return send(CommandKind::kRetune, text, options);
+}
+
+void add_retune(CLI::App& app, int& exit_code) {
+  const auto options = std::make_shared<dds::NetworkOptions>();
+  const auto path = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("retune", "Tell the coordinator to go over to another motion, in flight.");
+  command->add_option("MISSION", *path, "mission file with the same load and carriers")->required();
+  dds::add_network_options(*command, *options);
+  command->callback([options, path, &exit_code] { exit_code = retune(*path, *options); });
 }
 
 }  // namespace
@@ -89,8 +116,9 @@ void add_swarm_commands(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<dds::NetworkOptions>();
     CLI::App* command = app.add_subcommand(word.name, word.help);
     dds::add_network_options(*command, *options);
-    command->callback([options, kind = word.kind, &exit_code] { exit_code = send(kind, *options); });
+    command->callback([options, kind = word.kind, &exit_code] { exit_code = send(kind, "", *options); });
   }
+  add_retune(app, exit_code);
 }
 
 }  // namespace gyre::ground

@@ -98,9 +98,9 @@ class Agent {
   std::uint64_t undecodable_ = 0;
   protocol::DropCounts dropped_;
 
-  LocalTime next_tick_{};
-  LocalTime next_status_{};
-  LocalTime next_request_{};
+  LocalTime next_tick_ = LocalTime::min();  // a clock may well begin below zero
+  LocalTime next_status_ = LocalTime::min();
+  LocalTime next_request_ = LocalTime::min();
   bool alone_ = false;
 };
 

@@ -293,7 +293,7 @@ std::optional<protocol::CommandReply> decode(const idl::CommandReply& wire) {
 }
 
 std::optional<idl::CoordinatorStatus> encode(const protocol::CoordinatorStatus& message) {
-  if (message.silent.size() > kMaxCarrierId) return std::nullopt;
+  if (message.carriers.size() > kMaxCarrierId || message.silent.size() > kMaxCarrierId) return std::nullopt;
   idl::CoordinatorStatus wire;
   wire.term(message.term);
   wire.swarm_time_ns(ns(message.swarm_time));
@@ -302,13 +302,14 @@ std::optional<idl::CoordinatorStatus> encode(const protocol::CoordinatorStatus& 
   wire.motion(to_wire(message.motion));
   wire.skew_budget_ns(message.skew_budget.count());
   wire.skew_ns(message.skew.count());
+  wire.carriers(message.carriers);
   wire.silent(message.silent);
   wire.news(fitting_text(message.news, protocol::kMaxTextBytes));
   return wire;
 }
 
 std::optional<protocol::CoordinatorStatus> decode(const idl::CoordinatorStatus& wire) {
-  if (wire.silent().size() > kMaxCarrierId) return std::nullopt;
+  if (wire.carriers().size() > kMaxCarrierId || wire.silent().size() > kMaxCarrierId) return std::nullopt;
   protocol::CoordinatorStatus message;
   message.term = wire.term();
   message.swarm_time = swarm(wire.swarm_time_ns());
@@ -317,6 +318,7 @@ std::optional<protocol::CoordinatorStatus> decode(const idl::CoordinatorStatus& 
   message.motion = from_wire(wire.motion());
   message.skew_budget = Duration(wire.skew_budget_ns());
   message.skew = Duration(wire.skew_ns());
+  message.carriers = wire.carriers();
   message.silent = wire.silent();
   message.news = wire.news().to_string();
   return message;

@@ -152,6 +152,7 @@ void Coordinator::on(LocalTime now, const protocol::Command& command, Outputs& o
   switch (command.kind) {
     case CommandKind::kFreeze:
       if (!moving()) return refuse("nothing moves");
+      if (!room_for_transition()) return refuse("too many transitions are under way; wait until they are complete");
       engage_ = false;
       return freeze(now, swarm_time(now) + options_.agreement.lead, true, command.id, out);
     case CommandKind::kEngage:
@@ -173,6 +174,7 @@ void Coordinator::on(LocalTime now, const Retune& retune, Outputs& out) {
   const auto refuse = [&](const std::string& why) { answer(retune.command, false, "cannot retune: " + why, out); };
   if (term_ == 0 || shutting_down_ || agreement_) return refuse("the coordinator is busy; try again");
   if (!retune.job) return refuse(retune.job.error().text);
+  if (!room_for_transition()) return refuse("too many transitions are under way; wait until they are complete");
   if (const auto why = retune_obstacle(job_.plan, retune.job.value().plan)) return refuse(*why);
   const bool at_rest = destination() == rest_;
   job_ = retune.job.value();
@@ -272,6 +274,7 @@ protocol::CoordinatorStatus Coordinator::status(LocalTime now) const {
   s.motion = motion_;
   s.skew_budget = skew_budget(course_.base.number);
   s.skew = skew(now);
+  s.carriers = carriers_;
   for (const CarrierId id : carriers_) {
     if (fleet_.silent(now, id)) s.silent.push_back(id);
   }

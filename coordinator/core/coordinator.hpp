@@ -131,6 +131,7 @@ class Coordinator {
   [[nodiscard]] Duration skew_budget(const protocol::PlanNumber& plan) const;
   [[nodiscard]] Duration skew(LocalTime now) const;
   [[nodiscard]] bool moving() const;
+  [[nodiscard]] bool room_for_transition() const;
   [[nodiscard]] Intent intent_to(const protocol::PlanNumber& to, std::optional<std::uint64_t> command) const;
   [[nodiscard]] std::vector<protocol::PlanNumber> plans_in_use() const;
   [[nodiscard]] protocol::CoordinatorStatus status(LocalTime now) const;
@@ -155,9 +156,9 @@ class Coordinator {
   std::optional<std::uint64_t> starting_;  ///< transition whose start is still to be checked
 
   std::optional<LocalTime> listening_since_;
-  LocalTime next_tick_{};
-  LocalTime next_status_{};
-  LocalTime retry_at_{};
+  LocalTime next_tick_ = LocalTime::min();  // a clock may well begin below zero
+  LocalTime next_status_ = LocalTime::min();
+  LocalTime retry_at_ = LocalTime::min();
   bool engage_ = false;
   bool frozen_for_loss_ = false;
   bool shutting_down_ = false;

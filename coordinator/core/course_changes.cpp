@@ -15,6 +15,16 @@ using protocol::PlanNumber;
 using protocol::Stage;
 using protocol::Transition;
 
+namespace {
+
+std::vector<CarrierId> without(std::vector<CarrierId> carriers, const std::vector<CarrierId>& these) {
+  const auto among = [&these](CarrierId c) { return std::find(these.begin(), these.end(), c) != these.end(); };
+  carriers.erase(std::remove_if(carriers.begin(), carriers.end(), among), carriers.end());
+  return carriers;
+}
+
+}  // namespace
+
 PlanNumber Coordinator::destination() const {
   return course_.transitions.empty() ? course_.base.number : course_.transitions.back().to.number;
 }
@@ -26,6 +36,11 @@ bool Coordinator::moving() const {
   };
   const auto numbers = protocol::plans_of(course_);
   return std::any_of(numbers.begin(), numbers.end(), moves_anyone);
+}
+
+/// Room for one more and for turning it back.
+bool Coordinator::room_for_transition() const {
+  return course_.transitions.size() + 2 <= protocol::kMaxTransitions;
 }
 
 std::vector<mechanics::TimedLayer> Coordinator::layers(CarrierId carrier, const protocol::Course& course,
@@ -49,12 +64,8 @@ void Coordinator::offer_plans(Outputs& out) const {
 std::vector<CarrierId> Coordinator::unconfirmed(LocalTime now) const {
   const std::uint64_t id = agreement_->transition().id;
   const auto confirmed = [&](const protocol::AgentStatus& s) { return s.term == term_ && s.confirmed >= id; };
-  std::vector<CarrierId> out = fleet_.missing(now, confirmed);
   // A lost agent cannot be asked. Whether to fly on without it was decided by the mission's policy, or by a person.
-  const std::vector<CarrierId> gone = lost(now);
-  const auto is_gone = [&gone](CarrierId c) { return std::find(gone.begin(), gone.end(), c) != gone.end(); };
-  out.erase(std::remove_if(out.begin(), out.end(), is_gone), out.end());
-  return out;
+  return without(fleet_.missing(now, confirmed), lost(now));
 }
 
 std::optional<std::string> Coordinator::refusal_of(const PlanNumber& plan) const {
@@ -74,7 +85,7 @@ Duration Coordinator::skew_budget(const PlanNumber& plan) const {
 
 std::optional<std::string> Coordinator::obstacle(LocalTime now, const PlanNumber& to) const {
   if (const auto refusal = refusal_of(to)) return "refused: " + *refusal;
-  if (course_.transitions.size() + 1 >= protocol::kMaxTransitions) return "too many transitions are under way; wait";
+  if (!room_for_transition()) return "too many transitions are under way; wait until they are complete";
   const Duration budget = skew_budget(to);
   if (budget > Duration::zero() && skew(now) > budget) {
     return text("the clocks may disagree by %.3g ms, the plan allows %.3g ms", 1e3 * seconds(skew(now)),
@@ -96,7 +107,7 @@ Intent Coordinator::intent_to(const PlanNumber& to, std::optional<std::uint64_t>
 
 void Coordinator::drive(LocalTime now, Outputs& out) {
   if (agreement_) return pursue(now, out);
-  if (now < retry_at_) return;
+  if (now < retry_at_ || !room_for_transition()) return;
 
   const std::vector<CarrierId> gone = lost(now);
   if (!gone.empty() && !frozen_for_loss_ && moving() && job_.on_agent_loss == AgentLoss::kFreeze && !shutting_down_) {
@@ -240,9 +251,9 @@ void Coordinator::check_start(LocalTime now, Outputs& out) {
            std::any_of(theirs.begin(), theirs.end(),
                        [&](const Transition& t) { return t.id == found->id && t.stage == Stage::kGo; });
   };
-  const std::vector<CarrierId> missing = fleet_.missing(now, follows);
+  const std::vector<CarrierId> missing = without(fleet_.missing(now, follows), lost(now));
   starting_.reset();
-  if (missing.empty()) return;
+  if (missing.empty() || shutting_down_) return;
   tell(out, Notice::Level::kWarning,
        list(missing) + (missing.size() == 1 ? " does" : " do") + " not follow the transition that began: turning back");
   // The plan below is known to everybody: no need to ask. Who never began stays where the turn leads.

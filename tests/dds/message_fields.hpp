@@ -48,7 +48,7 @@ template <class V> void each_field(protocol::CarrierState& m, V& v) { auto& [a, 
 template <class V> void each_field(protocol::LoadState& m, V& v) { auto& [a, b, c, d, e, f] = m; visit_all(v, a, b, c, d, e, f); }
 template <class V> void each_field(protocol::Command& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
 template <class V> void each_field(protocol::CommandReply& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
-template <class V> void each_field(protocol::CoordinatorStatus& m, V& v) { auto& [a, b, c, d, e, f, g, h, i] = m; visit_all(v, a, b, c, d, e, f, g, h, i); }
+template <class V> void each_field(protocol::CoordinatorStatus& m, V& v) { auto& [a, b, c, d, e, f, g, h, i, j] = m; visit_all(v, a, b, c, d, e, f, g, h, i, j); }
 template <class V> void each_field(protocol::Health& m, V& v) { auto& [a, b, c, d, e] = m; visit_all(v, a, b, c, d, e); }
 // clang-format on
 

@@ -177,7 +177,8 @@ void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
   }
   if (!accepts_term(reply.term, out)) return;
   const bool before = clock_.synchronised();
-  const auto verdict = clock_.observe({reply.request_sent, reply.request_received, reply.reply_sent, event.arrived});
+  const auto verdict =
+      clock_.observe({reply.request_sent, reply.request_received, reply.reply_sent, event.arrived}, now);
   if (verdict != protocol::Timekeeper::Verdict::kTaken) {
     ++dropped_.nonsense;
     return;

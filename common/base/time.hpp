@@ -31,6 +31,18 @@ struct SwarmClock {
 using LocalTime = LocalClock::time_point;
 using SwarmTime = SwarmClock::time_point;
 
+/// Seventy years: no clock here shows more, and the difference of two differences within it cannot overflow.
+inline constexpr Duration kLongest = std::chrono::hours(24 * 365 * 70);
+
+/// Before anything ever happened, on a clock that may well start below zero.
+inline constexpr LocalTime kLongAgo{-kLongest};
+
+/// Whether arithmetic on a time is safe; what others say may be anything.
+template <class Clock>
+[[nodiscard]] constexpr bool usable(std::chrono::time_point<Clock, Duration> time) {
+  return time.time_since_epoch() >= -kLongest && time.time_since_epoch() <= kLongest;
+}
+
 [[nodiscard]] constexpr double seconds(Duration duration) {
   return std::chrono::duration<double>(duration).count();
 }

@@ -8,8 +8,6 @@ namespace {
 /// Nothing Gyre carries is this far, this fast, this heavy or this strong; a number beyond is a broken message.
 constexpr double kHuge = 1e7;
 constexpr double kUnitTolerance = 1e-6;
-/// Two centuries: beyond it, arithmetic on times could overflow.
-constexpr Duration kLongest = std::chrono::hours(24 * 365 * 100);
 
 bool sane(double x) {
   return std::isfinite(x) && std::abs(x) <= kHuge;

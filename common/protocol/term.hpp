@@ -16,6 +16,8 @@ inline constexpr int kTermNonceBits = 16;
 }
 
 /// What a person is told of a term: 1, 2, 3, ...
-[[nodiscard]] constexpr unsigned long long generation(std::uint64_t term) { return term >> kTermNonceBits; }
+[[nodiscard]] constexpr unsigned long long generation(std::uint64_t term) {
+  return term >> kTermNonceBits;
+}
 
 }  // namespace gyre::protocol

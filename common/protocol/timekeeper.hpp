@@ -21,7 +21,9 @@
 //   3. an exchange that contradicts the filter beyond doubt is dropped; when many in a row agree with each other
 //      against the filter, the filter was wrong and starts again from them;
 //   4. the clock that is read runs at the filtered rate plus a bounded correction (slew): monotone, continuous;
-//   5. without exchanges the uncertainty grows with the drift's own uncertainty and with a bound on its wander.
+//   5. without exchanges the uncertainty grows with the drift's own uncertainty and with a bound on its wander;
+//   6. a network that is slow one way only pulls every exchange the same way, and no averaging helps: half of the delay
+//      is carried along, weighted as the filter weighs the offsets, and is part of the uncertainty.
 //
 // References: D. L. Mills, RFC 5905 (on-wire protocol, clock filter); R. E. Kalman, 1960.
 
@@ -61,21 +63,27 @@ class Timekeeper {
 
   explicit Timekeeper(const TimekeeperOptions& options = {}) : options_(options) {}
 
-  Verdict observe(const Exchange& exchange);
+  /// `now`: when it is told, not before the reply was received nor before any time asked for. The clock that is read
+  /// is steered from there on: what was read stays read, however long the reply waited in a queue.
+  Verdict observe(const Exchange& exchange, LocalTime now);
   /// A new coordinator keeps the swarm's time as well as it learned it: allow for an error of this size.
   void doubt(Duration error);
 
   /// Enough exchanges to fly by.
   [[nodiscard]] bool synchronised() const { return taken_ >= options_.exchanges_to_trust; }
-  /// Monotone in `local`, for `local` not before the last one asked or observed. Needs at least one exchange.
+  /// Once synchronised: monotone, and its rate bounded. `local` is not before the last observe(). Needs an exchange.
   [[nodiscard]] SwarmTime at(LocalTime local) const;
-  /// Three standard deviations, plus what the network's asymmetry can hide, plus what is still to be slewed.
+  /// Three standard deviations, plus what the network's asymmetry can hide, plus what is still to be slewed. The
+  /// longest duration there is before the first exchange.
   [[nodiscard]] Duration uncertainty(LocalTime local) const;
   [[nodiscard]] double drift_ppm() const { return 1e6 * drift_; }
 
  private:
-  [[nodiscard]] Duration least_delay() const;
-  void start(LocalTime local, double offset_ns, double sigma_ns);
+  /// How much of a delay the network did not need.
+  [[nodiscard]] double excess_ns(double delay_ns) const;
+  void start(LocalTime local, double offset_ns, double delay_ns);
+  /// False for a contradiction.
+  bool follow(LocalTime local, double measured_ns, double delay_ns);
   void predict(LocalTime local);
   void steer(LocalTime local);
 
@@ -86,18 +94,21 @@ class Timekeeper {
   LocalTime filtered_at_{};
   double offset_ns_ = 0.0;
   double drift_ = 0.0;
+  double asymmetry_ns_ = 0.0;                          // what of the offset may be the network's asymmetry
   std::array<std::array<double, 2>, 2> covariance_{};  // of (offset [ns], drift [-])
   int taken_ = 0;
   int contradictions_ = 0;
   double contradiction_ns_ = 0.0;
 
-  std::array<Duration, 32> delays_{};  // of recent exchanges, a ring
+  std::array<double, 32> delays_{};  // [ns] of recent exchanges, a ring
   std::size_t delay_count_ = 0;
 
-  // The clock that is read: swarm = anchor_swarm + (local − anchor_local) · (1 + rate).
+  // The clock that is read: from the anchor at slewing_rate_ for slew_time, then at steady_rate_. It has its own copy
+  // of the drift, because the filter's changes before the anchor does.
   LocalTime anchor_local_{};
   SwarmTime anchor_swarm_{};
-  double rate_ = 0.0;
+  double slewing_rate_ = 0.0;
+  double steady_rate_ = 0.0;
   bool running_ = false;
 };
 

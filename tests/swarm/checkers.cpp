@@ -1,0 +1,270 @@
+#include "tests/swarm/checkers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/text.hpp"
+#include "common/mechanics/grasp.hpp"
+#include "common/mechanics/skew.hpp"
+#include "common/mechanics/transition.hpp"
+#include "coordinator/core/coordinator.hpp"
+
+namespace gyre::swarm {
+namespace {
+
+/// A setpoint says so much by rounding.
+constexpr double kRounding = 1e-9;
+/// A position further than this from where the plan has it is one of an agent that merges.
+constexpr double kMerging_m = 1e-6;
+/// Peaks of the smooth step's derivatives: 15/8 per duration, 10/sqrt(3) per duration squared.
+constexpr double kPacePeak = 1.875;
+constexpr double kBendPeak = 5.7735;
+/// Freezing and turning back take at least this long (coordinator options).
+constexpr double kSwarmTimeJump_s = 2e-6;
+
+double internal_n(const mechanics::CarrierSlice& slice) {
+  return std::abs(slice.incoming.offset_n) + std::abs(slice.incoming.amplitude_n) + std::abs(slice.outgoing.offset_n) +
+         std::abs(slice.outgoing.amplitude_n);
+}
+
+/// How much each plan counts at `now`.
+struct Share {
+  protocol::TimedPlan plan;
+  double weight;
+};
+std::vector<Share> shares(const protocol::Course& course, SwarmTime now) {
+  std::vector<Share> out{{course.base, 1.0}};
+  for (const protocol::Transition& t : course.transitions) {
+    if (t.stage != protocol::Stage::kGo || now <= t.start) continue;
+    const double x = mechanics::transition_weight(seconds(now - t.start), seconds(t.duration)).value;
+    for (Share& share : out) share.weight *= 1.0 - x;
+    out.push_back({t.to, x});
+  }
+  return out;
+}
+
+double share_of(const std::vector<Share>& all, const protocol::TimedPlan& plan) {
+  double sum = 0.0;
+  for (const Share& share : all) {
+    if (share.plan == plan) sum += share.weight;
+  }
+  return sum;
+}
+
+}  // namespace
+
+double difference(const protocol::Course& a, const protocol::Course& b, SwarmTime now) {
+  if (a.base == b.base && a.transitions.empty() && b.transitions.empty()) return 0.0;
+  const auto of_a = shares(a, now);
+  const auto of_b = shares(b, now);
+  double worst = 0.0;
+  for (const auto* all : {&of_a, &of_b}) {
+    for (const Share& share : *all)
+      worst = std::max(worst, std::abs(share_of(of_a, share.plan) - share_of(of_b, share.plan)));
+  }
+  return worst;
+}
+
+double half_applied_bound(double duration_s) {
+  const coordinator::CoordinatorOptions options;
+  // One beacon period and one control period until it is seen and flown, and a few lost beacons.
+  const double begins_s = seconds(options.start_check + options.agreement.go_margin) + 0.3;
+  double worst = 0.0;
+  for (double t_s = 0.0; t_s < begins_s + seconds(options.turning_back); t_s += 0.01) {
+    const double forth = mechanics::transition_weight(t_s, duration_s).value;
+    const double back = mechanics::transition_weight(t_s - begins_s, seconds(options.turning_back)).value;
+    worst = std::max(worst, forth * (1.0 - back));
+  }
+  return worst;
+}
+
+Checkers::Checkers(const LoadWithMotions& load, const Scenario& scenario) : load_(load), agents_(load.size()) {
+  const mechanics::Plan& first = load.motions.front();
+  weight_n_ = first.load.mass_kg * first.gravity_m_s2;
+  arms_w_m_ = lever_arms(first);
+  for (const Eigen::Vector3d& arm : arms_w_m_) {
+    attachments_w_m_.emplace_back(first.load.position_w_m + arm);
+    arm_m_ = std::max(arm_m_, arm.norm());
+  }
+  std::vector<double> internal(load.size(), 0.0);
+  double rate_rad_s = 0.0;
+  for (const mechanics::Plan& plan : load.motions) {
+    const auto all = slices(plan);
+    rate_n_per_s_ =
+        std::max(rate_n_per_s_, mechanics::kSkewShare * weight_n_ / mechanics::skew_budget_s(all, weight_n_));
+    rate_rad_s = std::max(rate_rad_s, plan.cycle.rate_rad_s);
+    for (std::size_t i = 0; i < all.size(); ++i) internal[i] = std::max(internal[i], internal_n(all[i]));
+  }
+  for (const double n : internal) change_n_ += 2.0 * n;
+  shortest_transition_s_ = std::min(seconds(scenario.transition), 2.0);
+  curvature_n_s2_ = change_n_ * (rate_rad_s * rate_rad_s + kBendPeak / std::pow(shortest_transition_s_, 2) +
+                                 2.0 * rate_rad_s * kPacePeak / shortest_transition_s_);
+  acceleration_m_s2_ = 4.0 * load.vehicle.acceleration_max_m_s2.value();
+}
+
+void Checkers::report(Finding::Kind kind, TrueTime at, const std::string& rule, const std::string& text) {
+  const auto same = [&rule](const Finding& f) { return f.rule == rule; };
+  if (std::none_of(findings_.begin(), findings_.end(), same)) findings_.push_back({kind, at, rule, text});
+}
+
+void Checkers::begins(std::size_t agent) {
+  agents_[agent] = Agent{};
+  agents_[agent].lives = true;
+}
+
+void Checkers::ends(std::size_t agent) {
+  agents_[agent].lives = false;
+}
+
+void Checkers::status(std::size_t agent, TrueTime now, const protocol::AgentStatus& status) {
+  Agent& a = agents_[agent];
+  if (status.term < a.term)
+    report(Finding::Kind::kSafety, now, "terms", text("agent %u went back to an older term", status.carrier));
+  a.term = status.term;
+  a.uncertainty = status.clock_uncertainty;
+}
+
+void Checkers::setpoint(std::size_t agent, TrueTime now, const protocol::Setpoint& setpoint) {
+  Agent& a = agents_[agent];
+  ++extremes_.setpoints;
+  a.before = a.last;
+  a.last = Sample{now, setpoint};
+  if (a.before) check_continuity(now, a, *a.before, *a.last);
+}
+
+void Checkers::check_continuity(TrueTime now, const Agent& /*agent*/, const Sample& before, const Sample& last) {
+  const protocol::Setpoint& p = before.setpoint;
+  const protocol::Setpoint& s = last.setpoint;
+  const double dt_s = seconds(s.swarm_time - p.swarm_time);
+  const double truly_s = seconds(last.at - before.at);
+  if (dt_s < 0.0)
+    report(Finding::Kind::kSafety, now, "swarm time",
+           text("runs backwards by %.3g ms at agent %u", -1e3 * dt_s, s.carrier));
+  // The clock is slewed by 1 % at most, and the quartz and its correction are off by 500 ppm at most.
+  if (std::abs(dt_s - truly_s) > 0.0105 * truly_s + kSwarmTimeJump_s) {
+    report(Finding::Kind::kSafety, now, "swarm time",
+           text("jumps by %.3g ms in %.3g ms at agent %u", 1e3 * (dt_s - truly_s), 1e3 * truly_s, s.carrier));
+  }
+  // A velocity that changes within the acceleration bound: v1 − v0 <= a dt, and p1 − p0 within a dt² / 2 of v0 dt.
+  const double velocity_step = (s.velocity_w_m_s - p.velocity_w_m_s).norm();
+  const double position_step = (s.position_w_m - p.position_w_m - truly_s * p.velocity_w_m_s).norm();
+  const double velocity_bound = acceleration_m_s2_ * truly_s + kRounding;
+  const double speed_m_s = std::max(s.velocity_w_m_s.norm(), p.velocity_w_m_s.norm());
+  const double position_bound = 0.5 * acceleration_m_s2_ * truly_s * truly_s + 0.0105 * truly_s * speed_m_s +
+                                kSwarmTimeJump_s * speed_m_s + kRounding;
+  const double share = std::max(velocity_step / velocity_bound, position_step / position_bound);
+  extremes_.step_of_bound = std::max(extremes_.step_of_bound, share);
+  if (share > 1.0) {
+    report(Finding::Kind::kSafety, now, "continuity",
+           text("agent %u: position steps by %.3g mm (bound %.3g), velocity by %.3g mm/s (bound %.3g), within %.3g ms",
+                s.carrier, 1e3 * position_step, 1e3 * position_bound, 1e3 * velocity_step, 1e3 * velocity_bound,
+                1e3 * truly_s));
+  }
+}
+
+/// All agents' forces and clocks at one true time, between their setpoints.
+struct Checkers::Moment {
+  TrueTime at{};
+  SwarmTime swarm{};  ///< as the first of them has it
+  std::vector<Eigen::Vector3d> forces_w_n;
+  std::vector<Duration> clocks;  ///< swarm − true
+  double gap_s = 0.0;            ///< longest between two setpoints
+};
+
+void Checkers::instant(TrueTime now, const std::vector<const protocol::Course*>& courses) {
+  disagreement_.reset();
+  merging_now_ = false;
+  Moment m;
+  m.at = now;
+  for (const Agent& a : agents_) {
+    if (!a.lives || !a.last || !a.before) return;
+    m.at = std::min(m.at, a.last->at);
+  }
+  for (std::size_t i = 0; i < agents_.size(); ++i) {
+    const Sample& p = *agents_[i].before;
+    const Sample& s = *agents_[i].last;
+    m.gap_s = std::max({m.gap_s, seconds(s.at - p.at), seconds(m.at - p.at), seconds(now - s.at)});
+    const double x = seconds(m.at - p.at) / seconds(s.at - p.at);
+    const Eigen::Vector3d before_n = p.setpoint.tension_n * p.setpoint.direction_w;
+    const Eigen::Vector3d last_n = s.setpoint.tension_n * s.setpoint.direction_w;
+    m.forces_w_n.emplace_back(before_n + x * (last_n - before_n));
+    const double clock_s =
+        seconds(p.setpoint.swarm_time.time_since_epoch() - s.setpoint.swarm_time.time_since_epoch() + (s.at - p.at)) *
+        (1.0 - x);
+    m.clocks.push_back(s.setpoint.swarm_time.time_since_epoch() - s.at.time_since_epoch() + from_seconds(clock_s));
+    const protocol::Setpoint& here = s.setpoint;
+    const double gap_m = (here.position_w_m - attachments_w_m_[i] - here.cable_length_m * here.direction_w).norm();
+    merging_now_ = merging_now_ || gap_m > kMerging_m;
+    extremes_.merging += gap_m > kMerging_m ? 1 : 0;
+  }
+  constexpr double kHung_s = 0.05;  // somebody sends no setpoints: its force between them is anybody's guess
+  if (m.gap_s > kHung_s) return;
+  m.swarm = SwarmTime(m.at.time_since_epoch() + m.clocks.front());
+  check_clocks(m);
+
+  double half_applied = 0.0;
+  double duration_s = 1e9;
+  double pace_per_s = 0.0;
+  for (const protocol::Course* course : courses) {
+    if (course == nullptr) return;
+    half_applied = std::max(half_applied, difference(*courses.front(), *course, m.swarm));
+    for (const protocol::Transition& t : course->transitions) {
+      duration_s = std::min(duration_s, seconds(t.duration));
+      pace_per_s =
+          std::max(pace_per_s, static_cast<double>(course->transitions.size()) * kPacePeak / seconds(t.duration));
+    }
+  }
+  for (const protocol::Course* a : courses) {
+    if (half_applied == 0.0) break;
+    for (const protocol::Course* b : courses) half_applied = std::max(half_applied, difference(*a, *b, m.swarm));
+  }
+  extremes_.half_applied = std::max(extremes_.half_applied, half_applied);
+  if (m.at > calm_from_) {
+    extremes_.half_applied_in_calm = std::max(extremes_.half_applied_in_calm, half_applied);
+    if (half_applied > half_applied_bound(duration_s) + 1e-3) {
+      report(Finding::Kind::kSafety, now, "half applied",
+             text("%.3g of a transition of %.3g s is flown by some and not by others (bound %.3g)", half_applied,
+                  duration_s, half_applied_bound(duration_s)));
+    }
+  }
+  check_equilibrium(m, half_applied, pace_per_s);
+}
+
+void Checkers::check_clocks(const Moment& m) {
+  const auto [least, most] = std::minmax_element(m.clocks.begin(), m.clocks.end());
+  disagreement_ = *most - *least;
+  extremes_.disagreement_s = std::max(extremes_.disagreement_s, seconds(*disagreement_));
+  const Duration early = agents_[static_cast<std::size_t>(least - m.clocks.begin())].uncertainty;
+  const Duration late = agents_[static_cast<std::size_t>(most - m.clocks.begin())].uncertainty;
+  if (early == Duration::max() || late == Duration::max() || lies_) return;
+  const Duration claimed = early + late + std::chrono::microseconds(20);
+  if (*disagreement_ > claimed) {
+    report(Finding::Kind::kSafety, m.at, "clocks",
+           text("two agents' swarm times differ by %.4g ms and claim to by %.4g ms at most",
+                1e3 * seconds(*disagreement_), 1e3 * seconds(claimed)));
+  }
+}
+
+void Checkers::check_equilibrium(const Moment& m, double half_applied, double pace_per_s) {
+  Eigen::Vector3d force = Eigen::Vector3d(0.0, 0.0, -weight_n_);
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < agents_.size(); ++i) {
+    force += m.forces_w_n[i];
+    moment += arms_w_m_[i].cross(m.forces_w_n[i]);
+  }
+  const double rate = rate_n_per_s_ + 0.5 * pace_per_s * change_n_;
+  const double between = 0.5 * m.gap_s * m.gap_s * curvature_n_s2_;  // forces are drawn as lines between setpoints
+  const double bound_n = rate * seconds(*disagreement_) + half_applied * change_n_ + between + 1e-9 * weight_n_;
+  const double residual_n = std::max(force.norm(), moment.norm() / arm_m_);
+  ++extremes_.instants;
+  extremes_.residual_share = std::max(extremes_.residual_share, residual_n / weight_n_);
+  extremes_.residual_of_bound = std::max(extremes_.residual_of_bound, residual_n / bound_n);
+  if (residual_n > bound_n) {
+    report(
+        Finding::Kind::kSafety, m.at, "equilibrium",
+        text("residual %.4g N, %.3g of the weight; the clocks (%.3g ms) and what is half applied (%.3g) explain %.4g N",
+             residual_n, residual_n / weight_n_, 1e3 * seconds(*disagreement_), half_applied, bound_n));
+  }
+}
+
+}  // namespace gyre::swarm

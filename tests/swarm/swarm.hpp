@@ -1,0 +1,135 @@
+#pragma once
+// A whole swarm in one process: real cores of coordinators and agents, on virtual time, over a virtual wire.
+//
+// Nothing here decides anything for a core; it performs what the mains perform: it brings messages, calls at next_tick,
+// and sends what comes out, in the order the cores ask for. True time only moves from one happening to the next.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "agent/core/agent.hpp"
+#include "coordinator/core/coordinator.hpp"
+#include "tests/swarm/checkers.hpp"
+#include "tests/swarm/network.hpp"
+#include "tests/swarm/scenario.hpp"
+
+namespace gyre::swarm {
+
+/// How many of each fault really happened, beside the packets' own counts.
+struct FaultCounts {
+  PacketCounts packets;
+  std::uint64_t agents_killed = 0, coordinators_killed = 0, killed_in_transition = 0, suspended = 0, stalled = 0,
+                partitions = 0, second_coordinators = 0, stood_down = 0, stood_down_alone = 0, commands = 0,
+                retunes = 0, frozen_for_loss = 0, turned_back = 0;
+};
+
+/// Ways to break a swarm on purpose, to see that the judges notice. Empty ones change nothing.
+struct Sabotage {
+  std::function<void(std::size_t agent, TrueTime, agent::Event&)> agent_hears;
+  std::function<void(std::size_t agent, TrueTime, agent::Outputs&)> agent_says;
+  std::function<void(std::size_t coordinator, TrueTime, coordinator::Outputs&)> coordinator_says;
+  std::function<bool(std::size_t coordinator)> coordinator_is_deaf;  ///< to other coordinators' beacons
+  std::function<Duration(std::size_t process, TrueTime)> clock_error;
+};
+
+struct Process;
+struct Message;
+struct Happening;
+struct Channel;
+
+/// Where a carrier is when nobody tells it anything (simulator/core/extrapolation.hpp).
+struct Vehicle {
+  TrueTime since{};
+  protocol::Setpoint last;
+};
+
+class Swarm {
+ public:
+  using Trace = std::function<void(TrueTime, const std::string&)>;
+
+  Swarm(const Scenario& scenario, const Sabotage& sabotage, Trace trace);
+  ~Swarm();
+
+  /// Everything up to this moment.
+  void run_until(TrueTime until);
+  [[nodiscard]] TrueTime now() const { return now_; }
+
+  /// From the ground, to whichever coordinators live; reliable.
+  void command(protocol::CommandKind kind);
+  void shut_down();
+
+  // What an observer may ask.
+  [[nodiscard]] std::size_t coordinators_alive() const;
+  [[nodiscard]] const coordinator::Coordinator* coordinator() const;  ///< the one that lives, if one does
+  [[nodiscard]] bool agrees(Duration clock_bound, std::string* why) const;
+  [[nodiscard]] bool at_rest() const;
+  [[nodiscard]] std::optional<coordinator::Outcome> last_outcome() const { return last_outcome_; }
+  [[nodiscard]] const std::vector<protocol::CommandReply>& replies() const { return replies_; }
+
+  [[nodiscard]] Checkers& checkers() { return checkers_; }
+  [[nodiscard]] FaultCounts faults() const;
+
+ private:
+  using MessagePointer = std::shared_ptr<const Message>;
+
+  [[nodiscard]] bool is_agent(std::size_t process) const { return process >= kCoordinators; }
+  [[nodiscard]] std::size_t process_of(CarrierId carrier) const { return process_of_[carrier]; }
+  void schedule(Happening happening);
+  void happen(const Happening& happening);
+  void act(const Action& action);
+  void observe();
+
+  void start(std::size_t process);
+  void kill(std::size_t process);
+  void joined(std::size_t process);
+  void hold(std::size_t process, Duration length, bool suspended);
+  void release(std::size_t process);
+  void wake(std::size_t process);
+
+  void send(std::size_t from, std::size_t to, const MessagePointer& message);
+  void send_broken(std::size_t from, std::size_t to, const Message& message);
+  void write(std::size_t channel, const MessagePointer& message);
+  void attempt(std::size_t channel, bool again);
+  void arrive(std::size_t process, const Message& message);
+  void hand_over(std::size_t process, const Message& message, LocalTime stamped);
+  void step_agent(std::size_t process, agent::Event event);
+  void step_coordinator(std::size_t process, const coordinator::Event& event);
+  void perform(std::size_t process, const agent::Outputs& out);
+  void perform(std::size_t process, const coordinator::Outputs& out);
+  void watch_course(std::size_t process);
+  [[nodiscard]] LocalTime local(std::size_t process);
+  [[nodiscard]] protocol::CarrierState vehicle_state(std::size_t agent) const;
+  template <class T>
+  void say(T&& what) {
+    if (trace_) trace_(now_, what());
+  }
+
+  Scenario scenario_;
+  const LoadWithMotions& load_;
+  Sabotage sabotage_;
+  Trace trace_;
+  Network network_;
+  Checkers checkers_;
+  FaultCounts faults_;
+  TrueTime now_{};
+  std::uint64_t happenings_made_ = 0;
+  std::vector<Happening> heap_;
+  std::vector<Process> processes_;
+  std::vector<Channel> channels_;
+  std::vector<Vehicle> vehicles_;
+  std::vector<std::size_t> process_of_;  ///< by carrier id
+  std::vector<protocol::CommandReply> replies_;
+  std::optional<coordinator::Outcome> last_outcome_;
+  std::optional<Duration> kill_after_start_;
+  std::uint64_t last_watched_transition_ = 0;
+  std::uint64_t commands_sent_ = 0;
+  bool healed_ = false;
+  bool ending_ = false;
+  RandomStream chores_;
+};
+
+}  // namespace gyre::swarm

@@ -1,0 +1,85 @@
+// swarm_sweep --flights N --first-seed S: flights by the million. swarm_sweep --seed S: one flight, told.
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <map>
+
+#include "tests/swarm/flight.hpp"
+
+namespace {
+
+using gyre::seconds;
+namespace swarm = gyre::swarm;
+
+int replay(std::uint64_t seed) {
+  const swarm::Scenario scenario = swarm::scenario(seed);
+  std::printf("seed %llu: load %zu with %zu carriers, transitions of %.2f s, agent loss: %s\n",
+              static_cast<unsigned long long>(seed), scenario.load, swarm::loads()[scenario.load].size(),
+              seconds(scenario.transition),
+              scenario.on_agent_loss == gyre::coordinator::AgentLoss::kFreeze ? "freeze" : "continue");
+  const auto trace = [](swarm::TrueTime at, const std::string& what) {
+    std::printf("%9.4f  %s\n", seconds(at.time_since_epoch()), what.c_str());
+  };
+  const swarm::FlightReport report = swarm::fly(scenario, {}, trace);
+  std::printf("half applied %.3g, residual %.3g of the weight, agreed after %.2f s\n%s", report.extremes.half_applied,
+              report.extremes.residual_share, seconds(report.agreed_after), describe(report).c_str());
+  return report.good() ? 0 : 1;
+}
+
+int sweep(std::uint64_t first, std::uint64_t flights, int shown) {
+  std::map<std::string, std::uint64_t> broken;
+  double flown_s = 0.0, agreed_s = 0.0, four_flown_s = 0.0, four_took_s = 0.0, half_calm = 0.0, of_bound = 0.0,
+         step = 0.0;
+  std::uint64_t bad = 0;
+  (void)swarm::loads();
+  const auto began = std::chrono::steady_clock::now();
+  for (std::uint64_t seed = first; seed < first + flights; ++seed) {
+    const swarm::Scenario scenario = swarm::scenario(seed);
+    const auto at = std::chrono::steady_clock::now();
+    const swarm::FlightReport report = swarm::fly(scenario);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - at;
+    if (swarm::loads()[scenario.load].size() == 4) {
+      four_flown_s += seconds(report.flown);
+      four_took_s += took.count();
+    }
+    flown_s += seconds(report.flown);
+    agreed_s = std::max(agreed_s, seconds(report.agreed_after));
+    half_calm = std::max(half_calm, report.extremes.half_applied_in_calm);
+    of_bound = std::max(of_bound, report.extremes.residual_of_bound);
+    step = std::max(step, report.extremes.step_of_bound);
+    if (report.good()) continue;
+    ++bad;
+    for (const swarm::Finding& f : report.findings) {
+      if (broken[f.rule]++ < static_cast<std::uint64_t>(shown))
+        std::printf("seed %llu: %s: %s\n", static_cast<unsigned long long>(seed), f.rule.c_str(), f.text.c_str());
+    }
+  }
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+  std::printf("%llu flights, %llu with findings\n", static_cast<unsigned long long>(flights),
+              static_cast<unsigned long long>(bad));
+  for (const auto& [rule, count] : broken)
+    std::printf("  %-14s %llu\n", rule.c_str(), static_cast<unsigned long long>(count));
+  std::printf(
+      "longest agreement %.2f s, half applied in calm %.3g, residual %.3g of its bound, step %.3g of its bound\n",
+      agreed_s, half_calm, of_bound, step);
+  std::printf("%.0f s flown in %.1f s: %.0f times faster than real time; n = 4: %.0f times\n", flown_s, took.count(),
+              flown_s / took.count(), four_flown_s / four_took_s);
+  return bad == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Flies whole swarms on virtual time with faults drawn from seeds, and judges them.", "swarm_sweep"};
+  std::optional<std::uint64_t> seed;
+  std::uint64_t first = 1;
+  std::uint64_t flights = 1000;
+  int shown = 5;
+  app.add_option("--seed", seed, "fly this one and tell what happens");
+  app.add_option("--first-seed", first)->capture_default_str();
+  app.add_option("--flights", flights)->capture_default_str();
+  app.add_option("--shown", shown, "findings of one kind that are printed")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  return seed ? replay(*seed) : sweep(first, flights, shown);
+}

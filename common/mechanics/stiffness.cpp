@@ -1,9 +1,12 @@
 #include "common/mechanics/stiffness.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <boost/math/tools/minima.hpp>
+#include <cmath>
 
 #include "common/mechanics/grasp.hpp"
+#include "common/mechanics/range.hpp"
 #include "common/mechanics/reference.hpp"
 
 namespace gyre::mechanics {
@@ -42,20 +45,24 @@ double least_stiffness(const Plan& plan, const std::vector<CarrierSlice>& slices
     const Matrix6d k = load_stiffness(plan, slices, t_s);
     return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d>(k, inertia, Eigen::EigenvaluesOnly).eigenvalues()(0);
   };
-  constexpr int kSamples = 128;
-  const double step = period_s / kSamples;
-  int least = 0;
-  double least_value = eigenvalue(0.0);
-  for (int i = 1; i < kSamples; ++i) {
-    const double value = eigenvalue(step * i);
-    if (value < least_value) {
-      least = i;
-      least_value = value;
-    }
+  constexpr double kTwoPi = 6.283185307179586;
+  const double turns = std::clamp(period_s * std::abs(plan.cycle.rate_rad_s) / kTwoPi, 1.0, 16.0);
+  const auto samples = static_cast<int>(std::lround(128.0 * turns));
+  const double step = period_s / samples;
+  std::vector<double> grid;
+  Range range;
+  for (int i = 0; i < samples; ++i) range.include(grid.emplace_back(eigenvalue(step * i)));
+
+  // Every valley of the grid that is nearly as deep as the deepest may hold the least.
+  const double nearly = range.min + 0.1 * range.span();
+  const bool flat = range.span() <= 1e-9 * std::abs(range.max);
+  for (int i = 0; i < samples && !flat; ++i) {
+    const auto at = [&grid, samples](int k) { return grid[static_cast<std::size_t>((k + samples) % samples)]; };
+    if (at(i) > nearly || at(i) > at(i - 1) || at(i) > at(i + 1)) continue;
+    constexpr int kBits = 26;
+    range.include(boost::math::tools::brent_find_minima(eigenvalue, step * (i - 1), step * (i + 1), kBits).second);
   }
-  constexpr int kBits = 26;
-  const auto refined = boost::math::tools::brent_find_minima(eigenvalue, step * (least - 1), step * (least + 1), kBits);
-  return std::min(least_value, refined.second);
+  return range.min;
 }
 
 }  // namespace gyre::mechanics

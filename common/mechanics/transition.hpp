@@ -73,6 +73,15 @@ struct TimedLayer {
 /// More layers than this never lie on each other (protocol::kMaxPlans).
 inline constexpr std::size_t kMaxLayers = 5;
 
+/// The topmost layer that has come in completely by `now_s`: nothing below it counts any more.
+[[nodiscard]] inline std::size_t complete_layer(const TimedLayer* layers, std::size_t count, double now_s) {
+  std::size_t complete = 0;
+  for (std::size_t i = 1; i < count; ++i) {
+    if (now_s - layers[i].start_s >= layers[i].duration_s) complete = i;
+  }
+  return complete;
+}
+
 /// The reference at `now_s`; `layers` from the bottom up, 1..kMaxLayers.
 [[nodiscard]] inline Reference evaluate_course(const TimedLayer* layers, std::size_t count, double now_s) {
   GYRE_ENSURE(count <= kMaxLayers, "a course has a bounded number of layers");
@@ -81,7 +90,8 @@ inline constexpr std::size_t kMaxLayers = 5;
     stack[i] = {layers[i].slice, now_s - layers[i].epoch_s,
                 transition_weight(now_s - layers[i].start_s, layers[i].duration_s)};
   }
-  return evaluate_mixture(stack.data(), count);
+  const std::size_t bottom = complete_layer(layers, count, now_s);
+  return evaluate_mixture(stack.data() + bottom, count - bottom);
 }
 
 }  // namespace gyre::mechanics

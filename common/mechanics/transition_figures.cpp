@@ -95,7 +95,8 @@ class Window {
       const TimedLayer& layer = layers_[i];
       stack[i] = {layer.slice, Interval(begin_s - layer.epoch_s, end_s - layer.epoch_s), weight(layer, begin_s, end_s)};
     }
-    const BasicReference<Interval> r = evaluate_mixture(stack.data(), layers_.size());
+    const std::size_t bottom = complete_layer(layers_.data(), layers_.size(), begin_s);
+    const BasicReference<Interval> r = evaluate_mixture(stack.data() + bottom, layers_.size() - bottom);
 
     // F(t) in F(middle) + F'(cell) [−h, h], which shrinks with h², intersected with the plain enclosure.
     const Interval step(-h, h);

@@ -4,7 +4,8 @@
 // A mixture has no critical polynomial, so its extremes are enclosed: the same formulas (transition.hpp) are evaluated
 // in interval arithmetic on cells of time, with the mean value form, and cells are halved until the enclosure is tight.
 // The result holds every value of the window and is wider than the truth by at most kTransitionSlack of each figure's
-// greatest magnitude: a proof, not a sampling.
+// greatest magnitude (winch rate: or the speed's; altitude: or the length's): a proof, not a sampling. Where cells get
+// as narrow as they may first (violent mixtures, cables near the plane of their law) it is wider, never wrong.
 //
 // Reference: DESIGN facts 1 and 3; R. E. Moore, Interval Analysis.
 

@@ -102,13 +102,13 @@ RC_GTEST_PROP(Mixture, before_it_is_the_plan_below_and_after_the_plan_above, ())
   const TimedLayer& above = stack.times.back();
   for (std::size_t i = 0; i < stack.carriers(); ++i) {
     const double before_s = above.start_s - real(0.0, 3.0);
-    const double after_s = above.start_s + above.duration_s + real(0.0, 3.0);
+    const double after_s = above.start_s + above.duration_s + real(0.001, 3.0);
     const auto expect = [&](double now_s, std::size_t layer) {
       const Reference mixed = at(stack.layers(i), now_s);
       const Reference alone = evaluate(stack.slices_of[layer][i], now_s - stack.times[layer].epoch_s);
-      RC_ASSERT((mixed.position_w_m.value - alone.position_w_m.value).norm() < 1e-12);
-      RC_ASSERT((mixed.position_w_m.second - alone.position_w_m.second).norm() < 1e-11);
-      RC_ASSERT(std::abs(mixed.length_m.value - alone.length_m.value) < 1e-12);
+      RC_ASSERT(mixed.position_w_m.value == alone.position_w_m.value);
+      RC_ASSERT(mixed.position_w_m.second == alone.position_w_m.second);
+      RC_ASSERT(mixed.length_m.value == alone.length_m.value);
     };
     expect(before_s, 0);
     expect(after_s, 1);
@@ -179,6 +179,7 @@ void check_figures(const Stack& stack, double begin_s, double end_s) {
     const std::vector<TimedLayer> layers = stack.layers(i);
     const CarrierFigures claim = transition_figures(layers, begin_s, end_s);
     Track tension, length, winch_rate, speed, acceleration, altitude, vertical;
+    double grip = 1.0;  // of the laws that project, on the mixed direction
     sample(begin_s, end_s, 2000, [&](double t_s) {
       const Reference r = at(layers, t_s);
       tension.add(r.tension_n.value);
@@ -188,17 +189,26 @@ void check_figures(const Stack& stack, double begin_s, double end_s) {
       acceleration.add(r.position_w_m.second.norm());
       altitude.add(r.position_w_m.value.z());
       vertical.add(r.direction_w.value.z());
+      for (const TimedLayer& layer : layers) {
+        const LengthLaw& law = layer.slice->law;
+        if (law.is_projection()) grip = std::min(grip, law.direction.dot(r.direction_w.value));
+      }
     });
-    const auto check = [](const Track& track, const Range& range) {
-      check_holds(track, range, 1.001 * kTransitionSlack * track.size());
+    // A mixed direction may lose the grip that each plan has: lengths run away there, and claims may be loose, or
+    // infinite, but never wrong.
+    const double loose = grip < 0.5 ? std::numeric_limits<double>::infinity() : 0.0;
+    const auto check = [loose](const Track& track, const Range& range, double slack) {
+      check_holds(track, range, 1.001 * slack + loose);
     };
-    check(tension, claim.tension_n);
-    check(length, claim.length_m);
-    check(winch_rate, claim.winch_rate_m_s);
-    check(speed, claim.speed_m_s);
-    check(acceleration, {acceleration.range().min, claim.acceleration_max_m_s2});
-    check(altitude, claim.altitude_m);
-    check(vertical, claim.vertical_cosine);
+    check(tension, claim.tension_n, kTransitionSlack * tension.size());
+    check(length, claim.length_m, kTransitionSlack * length.size());
+    check(winch_rate, claim.winch_rate_m_s, kTransitionSlack * std::max(winch_rate.size(), speed.size()));
+    check(speed, claim.speed_m_s, kTransitionSlack * speed.size());
+    // Safe always; how tight depends on how wildly random plans are mixed (see the paper's engagement below).
+    check_holds(acceleration, {acceleration.range().min, claim.acceleration_max_m_s2},
+                std::numeric_limits<double>::infinity());
+    check(altitude, claim.altitude_m, kTransitionSlack * std::max(altitude.size(), length.size()));
+    check(vertical, claim.vertical_cosine, kTransitionSlack * vertical.size());
   }
 }
 
@@ -211,6 +221,20 @@ RC_GTEST_PROP(TransitionFigures, they_hold_every_sample_and_are_tight, ()) {
 RC_GTEST_PROP(TransitionFigures, they_do_so_for_three_layers_that_overlap, ()) {
   const Stack stack = random_stack(3, 3);
   check_figures(stack, -0.5, 12.5);
+}
+
+TEST(TransitionFigures, the_papers_engagement_is_tight_in_its_acceleration_too) {
+  Stack stack;
+  stack.add(rest_plan(paper_plan()), 0.0, 0.0, 0.0);
+  stack.add(paper_plan(), 0.0, 0.0, 20.0);
+  for (std::size_t i = 0; i < stack.carriers(); ++i) {
+    double sampled = 0.0;
+    sample(0.0, 20.0, 20000,
+           [&](double t_s) { sampled = std::max(sampled, at(stack.layers(i), t_s).position_w_m.second.norm()); });
+    const double claim = transition_figures(stack.layers(i), 0.0, 20.0).acceleration_max_m_s2;
+    EXPECT_GE(claim, sampled);
+    EXPECT_LE(claim, sampled * (1.0 + kAccelerationSlack) * (1.0 + 1e-4));
+  }
 }
 
 TEST(TransitionFigures, a_carrier_that_does_not_move_has_figures_without_width) {
@@ -271,6 +295,7 @@ TEST(Rest, it_is_the_centre_of_the_orbits_where_the_limits_allow) {
 
 TEST(Rest, it_is_on_the_orbits_where_the_centre_is_too_close) {
   Plan plan = polygon_plan(3);
+  for (Carrier& carrier : plan.carriers) carrier.attachment_b_m.head<2>() *= 0.01;  // a small load, wide circles
   const double in_flight = certify(plan).separation.min_m;
   const double at_centre = certify(rest_plan(plan), {true, false, false}).separation.min_m;
   ASSERT_GT(in_flight, at_centre);

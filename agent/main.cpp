@@ -45,7 +45,7 @@ class Wire {
     node.read<protocol::CarrierState>([this](const protocol::CarrierState& s, LocalTime) { inbox_.push(s); }, carrier);
   }
 
-  [[nodiscard]] std::deque<Event> wait_until(LocalTime deadline) { return inbox_.wait_until(deadline); }
+  [[nodiscard]] std::deque<Event> sleep_until(LocalTime deadline) { return inbox_.sleep_until(deadline); }
 
   [[nodiscard]] std::uint64_t undecodable() const { return node_->counters().undecodable; }
 
@@ -91,7 +91,7 @@ int run(const gyre::agent::AgentOptions& options, const gyre::dds::NetworkOption
     next_tick = out.next_tick;
   };
   while (gyre::take_interrupts() == 0) {
-    for (const Event& event : wire.wait_until(next_tick)) step(event);
+    for (const Event& event : wire.sleep_until(next_tick)) step(event);
     agent.count_undecodable(wire.undecodable());
     step(gyre::agent::Tick{});
     wire.report_health(agent.dropped());

@@ -80,7 +80,7 @@ class Wire {
     }
   }
 
-  [[nodiscard]] std::deque<Event> wait_until(LocalTime deadline) { return inbox_.wait_until(deadline); }
+  [[nodiscard]] std::deque<Event> sleep_until(LocalTime deadline) { return inbox_.sleep_until(deadline); }
 
   void send(const Outputs& out) {
     if (out.time_reply) time_replies_.at(out.time_reply->carrier).write(*out.time_reply);
@@ -114,7 +114,7 @@ Outcome conduct(Coordinator& coordinator, Wire& wire) {
     if (out.finished) finished = out.finished;
   };
   for (int interrupts = 0; !finished;) {
-    for (const Event& event : wire.wait_until(next_tick)) step(understood(event));
+    for (const Event& event : wire.sleep_until(next_tick)) step(understood(event));
     step(gyre::coordinator::Tick{});
     wire.report_health(coordinator.dropped());
     for (int more = gyre::take_interrupts(); more > 0; --more) {

@@ -53,7 +53,7 @@ class Wire {
     }
   }
 
-  [[nodiscard]] std::deque<SetpointArrived> wait_until(LocalTime deadline) { return inbox_.wait_until(deadline); }
+  [[nodiscard]] std::deque<SetpointArrived> sleep_until(LocalTime deadline) { return inbox_.sleep_until(deadline); }
 
   void send(const Outputs& out) {
     for (std::size_t i = 0; i < out.carriers.size(); ++i) carriers_[i].write(out.carriers[i]);
@@ -99,7 +99,7 @@ void report(const Outputs& out) {
 
 void simulate(Simulator& simulator, Wire& wire) {
   while (gyre::take_interrupts() == 0) {
-    for (const SetpointArrived& event : wire.wait_until(simulator.next_due())) {
+    for (const SetpointArrived& event : wire.sleep_until(simulator.next_due())) {
       report(simulator.step(event.arrived, event.setpoint));
     }
     const LocalTime now = gyre::dds::now();

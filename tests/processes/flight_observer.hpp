@@ -1,0 +1,85 @@
+#pragma once
+// Hears everything a flight says and keeps it, with the time it arrived: the measuring instrument of the fault flights.
+//
+// It sits in the ground's seat. Nothing in it knows what should be seen; flight_figures.hpp measures, tests judge.
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/dds/node.hpp"
+#include "common/protocol/messages.hpp"
+
+namespace gyre::test {
+
+template <class Message>
+struct Heard {
+  LocalTime arrived{};  ///< this process's clock
+  Message message;
+};
+
+template <class Message>
+using Heards = std::vector<Heard<Message>>;
+
+/// What one agent, and its vehicle, has said.
+struct CarrierRecord {
+  Heards<protocol::Setpoint> setpoints;
+  Heards<protocol::CarrierState> states;
+  Heards<protocol::AgentStatus> statuses;
+  Heards<protocol::TimeRequest> time_requests;
+};
+
+struct FlightRecord {
+  Heards<protocol::Beacon> beacons;
+  Heards<protocol::LoadState> load;
+  std::map<CarrierId, CarrierRecord> carriers;
+};
+
+class FlightObserver {
+ public:
+  /// Errors as dds::Node::open.
+  [[nodiscard]] static Result<std::unique_ptr<FlightObserver>> open(const std::vector<CarrierId>& carriers) {
+    auto node = dds::Node::open({{dds::Hub::kGround, std::nullopt}, 0, "127.0.0.1", {}});
+    if (!node) return node.error();
+    return std::unique_ptr<FlightObserver>(new FlightObserver(std::move(node).value(), carriers));
+  }
+
+  /// What `question(const FlightRecord&)` answers, while nothing is added.
+  template <class Question>
+  [[nodiscard]] auto ask(const Question& question) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return question(std::as_const(record_));
+  }
+
+ private:
+  FlightObserver(std::unique_ptr<dds::Node> node, const std::vector<CarrierId>& carriers) : node_(std::move(node)) {
+    keep(record_.beacons, std::nullopt);
+    keep(record_.load, std::nullopt);
+    for (const CarrierId id : carriers) {
+      CarrierRecord& carrier = record_.carriers[id];  // a map's elements stay where they are
+      keep(carrier.setpoints, id);
+      keep(carrier.states, id);
+      keep(carrier.statuses, id);
+      keep(carrier.time_requests, id);
+    }
+  }
+
+  template <class Message>
+  void keep(Heards<Message>& in, std::optional<CarrierId> carrier) {
+    node_->read<Message>(
+        [this, &in](Message message, LocalTime arrived) {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          in.push_back({arrived, std::move(message)});
+        },
+        carrier);
+  }
+
+  mutable std::mutex mutex_;
+  FlightRecord record_;
+  std::unique_ptr<dds::Node> node_;  // gone first: its handlers write above
+};
+
+}  // namespace gyre::test

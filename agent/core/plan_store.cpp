@@ -46,9 +46,14 @@ const mechanics::CarrierSlice* PlanStore::find(const PlanNumber& number) const {
   return found == accepted_.end() ? nullptr : &found->slice;
 }
 
+std::vector<NumberedSlice> PlanStore::held() const {
+  const std::size_t told = std::min(accepted_.size(), protocol::kMaxPlans);
+  return {accepted_.end() - static_cast<std::ptrdiff_t>(told), accepted_.end()};
+}
+
 std::vector<PlanNumber> PlanStore::accepted() const {
   std::vector<PlanNumber> numbers;
-  for (const NumberedSlice& held : accepted_) numbers.push_back(held.number);
+  for (const NumberedSlice& told : held()) numbers.push_back(told.number);
   return numbers;
 }
 

@@ -22,8 +22,10 @@ class PlanStore {
 
   /// nullptr when not held or refused.
   [[nodiscard]] const mechanics::CarrierSlice* find(const protocol::PlanNumber& number) const;
+  /// The newest kMaxPlans of them. An agent that missed changes holds what it flies besides what is offered, which can
+  /// be more than a message takes; the old ones are of no use to anybody else.
+  [[nodiscard]] std::vector<protocol::NumberedSlice> held() const;
   [[nodiscard]] std::vector<protocol::PlanNumber> accepted() const;
-  [[nodiscard]] const std::vector<protocol::NumberedSlice>& held() const { return accepted_; }
   /// The newest plan this vehicle cannot fly and why; number none() when there is none.
   [[nodiscard]] const protocol::PlanNumber& refused() const { return refused_; }
   [[nodiscard]] const std::string& refusal() const { return refusal_; }

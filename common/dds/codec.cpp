@@ -7,7 +7,7 @@ namespace gyre::dds {
 namespace idl = fast::idl;
 
 // The bounds of gyre_msgs.idl, which has to repeat the protocol's as literals.
-static_assert(protocol::kMaxTransitions == 4 && protocol::kMaxPlans == 5, "the sequences of gyre_msgs.idl");
+static_assert(protocol::kMaxTransitions == 4 && protocol::kMaxPlans == 7, "the sequences of gyre_msgs.idl");
 static_assert(kMaxCarrierId == 100, "the silent carriers of gyre_msgs.idl");
 static_assert(protocol::kMaxTextBytes == 255 && protocol::kMaxMissionBytes == 32768, "the strings of gyre_msgs.idl");
 

@@ -70,7 +70,7 @@ struct TimedLayer {
   double duration_s = 0.0;  ///< not read for the bottom layer
 };
 
-/// More layers than this never lie on each other (protocol::kMaxPlans).
+/// More layers than this never lie on each other (protocol::kMaxTransitions and the plan below them).
 inline constexpr std::size_t kMaxLayers = 5;
 
 /// The topmost layer that has come in completely by `now_s`: nothing below it counts any more.

@@ -51,8 +51,10 @@ struct Transition {
 
 /// More than this many transitions are never under way at once: engage, turn back, freeze, and one to spare.
 inline constexpr std::size_t kMaxTransitions = 4;
-/// The plans a course can refer to: its base and one per transition.
-inline constexpr std::size_t kMaxPlans = kMaxTransitions + 1;
+static_assert(kMaxTransitions + 1 == mechanics::kMaxLayers, "one layer per transition, and the base");
+/// The plans anybody has to know at once: a course's base, one per transition, and where it may be sent next: to the
+/// motion or to rest.
+inline constexpr std::size_t kMaxPlans = kMaxTransitions + 3;
 
 /// What the swarm flies, whole: a plan at the bottom and the transitions that lie on it (mechanics/transition.hpp).
 struct Course {

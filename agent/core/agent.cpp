@@ -55,7 +55,8 @@ std::optional<SwarmTime> Agent::swarm_time(LocalTime now) const {
 void Agent::on(LocalTime now, const Tick& /*tick*/, Outputs& out) {
   if (now < next_tick_) return;
   // A stall is not made up for: the next tick is one period from now, not a burst of the missed ones.
-  next_tick_ = std::max(next_tick_ + options_.control_period, now);
+  next_tick_ += options_.control_period;
+  if (next_tick_ <= now) next_tick_ = now + options_.control_period;
 
   if (now >= next_request_) {
     next_request_ = now + (clock_.synchronised() ? options_.request_period : options_.request_period_at_start);
@@ -88,6 +89,7 @@ bool Agent::accepts_term(std::uint64_t term, Outputs& out) {
       clock_.doubt(std::chrono::milliseconds(1));
     }
     term_ = term;
+    confirmed_ = 0;  // what was confirmed was confirmed to the former one, whose transitions had numbers of their own
     heard_.reset();
   }
   return true;
@@ -100,7 +102,8 @@ void Agent::on(LocalTime now, const protocol::Beacon& beacon, Outputs& out) {
   }
   if (const auto time = swarm_time(now)) {
     const Duration age = *time - beacon.swarm_time;
-    if (age > options_.beacon_age_max || age < -options_.beacon_age_max) {
+    const Duration age_max = options_.beacon_age_max + std::min(clock_.uncertainty(now), kLongest);
+    if (age > age_max || age < -age_max) {
       ++(age > Duration::zero() ? dropped_.late : dropped_.nonsense);
       return;
     }
@@ -137,16 +140,9 @@ void Agent::adopt(LocalTime now, const protocol::Course& course, Outputs& out) {
   const std::optional<SwarmTime> time = swarm_time(now);
   if (!time) return;
   const bool newer = term_ > course_term_ || course.revision > course_.revision || course_.base.number.none();
-  const auto wanted = reference(course, *time);
-  if (newer && wanted) {  // all its plans are held: a course is flown whole or not at all
-    const auto current = reference(course_, *time);
-    const mechanics::CarrierSlice* slice = plans_.find(course.base.number);
-    const Command next = command_of(*wanted, slice->cable_stiffness_n_m);
-    if (current) {
-      merge_.begin(*time, merge_.apply(*time, command_of(*current, slice->cable_stiffness_n_m)), next);
-    } else if (vehicle_) {
-      merge_.begin(*time, command_of(*vehicle_), next);
-    }
+  const auto wanted = newer ? reference(course, *time) : std::nullopt;
+  // Without one of its plans there is no reference: a course is flown whole or not at all.
+  if (wanted && merge_to(now, course, *wanted)) {
     course_ = course;
     course_term_ = term_;
     protocol::settle(course_, *time);
@@ -154,6 +150,23 @@ void Agent::adopt(LocalTime now, const protocol::Course& course, Outputs& out) {
   const std::uint64_t confirmed_before = confirmed_;
   confirm_proposal(*time);
   if (confirmed_ != confirmed_before) out.status = status(now);
+}
+
+bool Agent::merge_to(LocalTime now, const protocol::Course& course, const mechanics::Reference& wanted) {
+  const SwarmTime time = clock_.at(now);
+  const double stiffness = plans_.find(course.base.number)->cable_stiffness_n_m;
+  const Command next = command_of(wanted, stiffness);
+  if (const auto current = reference(course_, time)) {
+    merge_.begin(time, merge_.apply(time, command_of(*current, stiffness)), next);
+    return true;
+  }
+  if (!wants_vehicle_since_) wants_vehicle_since_ = now;
+  if (vehicle_) {
+    merge_.begin(time, command_of(*vehicle_), next);
+  } else if (now - *wants_vehicle_since_ < options_.vehicle_wait) {
+    return false;
+  }
+  return true;
 }
 
 void Agent::confirm_proposal(SwarmTime now) {
@@ -172,10 +185,11 @@ void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
     return;
   }
   if (reply.sequence <= requests_answered_) {
-    ++dropped_.duplicate;
+    ++(reply.sequence == requests_answered_ ? dropped_.duplicate : dropped_.late);
     return;
   }
   if (!accepts_term(reply.term, out)) return;
+  requests_answered_ = reply.sequence;  // believed or not: a copy of a lie is not a second witness
   const bool before = clock_.synchronised();
   const auto verdict =
       clock_.observe({reply.request_sent, reply.request_received, reply.reply_sent, event.arrived}, now);
@@ -183,7 +197,6 @@ void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
     ++dropped_.nonsense;
     return;
   }
-  requests_answered_ = reply.sequence;
   if (!before && clock_.synchronised()) {
     out.notices.push_back(
         {Notice::Level::kInfo, text("swarm time found, uncertain by %.3f ms", 1e3 * seconds(clock_.uncertainty(now)))});

@@ -29,7 +29,9 @@ struct AgentOptions {
   Duration request_period = std::chrono::milliseconds(125);
   Duration request_period_at_start = std::chrono::milliseconds(20);
   Duration coordinator_timeout = std::chrono::milliseconds(500);
-  Duration beacon_age_max = std::chrono::seconds(1);
+  Duration beacon_age_max = std::chrono::seconds(1);  ///< and what this clock may be wrong by
+  /// A restarted agent waits so long for its vehicle to tell where it is, rather than fly a step.
+  Duration vehicle_wait = std::chrono::milliseconds(500);
   protocol::TimekeeperOptions timekeeper;
 };
 
@@ -69,6 +71,8 @@ class Agent {
 
   [[nodiscard]] bool accepts_term(std::uint64_t term, Outputs& out);
   void adopt(LocalTime now, const protocol::Course& course, Outputs& out);
+  /// Whether to fly `wanted` from now on; it begins where the carrier is.
+  [[nodiscard]] bool merge_to(LocalTime now, const protocol::Course& course, const mechanics::Reference& wanted);
   void confirm_proposal(SwarmTime now);
   [[nodiscard]] std::optional<mechanics::Reference> reference(const protocol::Course& course, SwarmTime now) const;
   [[nodiscard]] protocol::Setpoint setpoint(SwarmTime now, const mechanics::Reference& reference);
@@ -88,6 +92,7 @@ class Agent {
   std::uint64_t course_term_ = 0;
   std::uint64_t confirmed_ = 0;
   std::optional<protocol::CarrierState> vehicle_;  ///< where the carrier really is
+  std::optional<LocalTime> wants_vehicle_since_;
 
   std::uint64_t setpoints_ = 0;
   std::uint64_t statuses_ = 0;

@@ -7,12 +7,14 @@
 // measured, in value, rate and acceleration, and added to the reference as a quintic that fades to nothing.
 //
 //   e(x) = e0 (1 − 10x³ + 15x⁴ − 6x⁵) + e0' T (x − 6x³ + 8x⁴ − 3x⁵) + e0'' T² (x²/2 − 3x³/2 + 3x⁴/2 − x⁵/2)
-//   x = (t − t0) / T,  T long enough for half the vehicle's speed and acceleration to be left for the plan itself
+//   x = (t − t0) / T, each term with its own T: long enough for half the vehicle's speed and acceleration to be left
+//   for the plan itself, and no longer, because a rate that fades over a long T carries far: e0' T / 5, e0'' T² / 60.
 //
 // While a gap closes, the carrier is not where equilibrium wants it: that is the price of having been away, and T is
 // what it is paid with.
 
 #include <Eigen/Core>
+#include <algorithm>
 
 #include "common/base/time.hpp"
 #include "common/mechanics/taylor.hpp"
@@ -40,12 +42,16 @@ class Merge {
 
   /// The reference with what is left of the gap.
   [[nodiscard]] Command apply(SwarmTime now, const Command& reference) const;
-  [[nodiscard]] bool under_way(SwarmTime now) const { return now < start_ + duration_; }
+  [[nodiscard]] bool under_way(SwarmTime now) const {
+    return under_way_ && now < start_ + std::max(value_time_, rate_time_);
+  }
 
  private:
   MergeLimits limits_;
   SwarmTime start_{};
-  Duration duration_{};
+  Duration value_time_{};
+  Duration rate_time_{};
+  bool under_way_ = false;
   Command gap_;
 };
 

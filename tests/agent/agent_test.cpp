@@ -1,0 +1,408 @@
+// One agent, told everything a coordinator, a network and a vehicle can tell it.
+
+#include "agent/core/agent.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "common/mechanics/rest_plan.hpp"
+#include "tests/mechanics/plans.hpp"
+
+namespace gyre::agent {
+namespace {
+
+using protocol::AgentState;
+using protocol::Beacon;
+using protocol::Course;
+using protocol::PlanNumber;
+using protocol::Stage;
+using protocol::Transition;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr std::uint64_t kTerm = 0x10000;
+constexpr PlanNumber kRest{kTerm, 1}, kMotion{kTerm, 2}, kOther{kTerm, 3};
+/// The swarm's clock is this far from the agent's.
+constexpr Duration kOffset = -std::chrono::hours(5);
+
+class AgentTest : public testing::Test {
+ protected:
+  AgentTest() { restart(1); }
+
+  void restart(std::uint64_t incarnation, const mechanics::Limits& vehicle = {}) {
+    AgentOptions options;
+    options.carrier = 1;
+    options.incarnation = incarnation;
+    options.vehicle = vehicle;
+    agent_ = std::make_unique<Agent>(options);
+  }
+
+  [[nodiscard]] SwarmTime swarm() const { return SwarmTime(now_.time_since_epoch() + kOffset); }
+
+  Outputs tell(const Event& event) {
+    Outputs out = agent_->step(now_, event);
+    if (out.status) status_ = out.status;
+    if (out.held) held_ = out.held;
+    if (out.setpoint) setpoint_ = out.setpoint;
+    for (const Notice& notice : out.notices) heard_ += notice.text + "\n";
+    return out;
+  }
+
+  protocol::TimeReply reply_to(const protocol::TimeRequest& request, std::uint64_t term = kTerm) {
+    const SwarmTime then(request.sent.time_since_epoch() + kOffset);
+    return {1, request.incarnation, request.sequence, term, request.sent, then, then};
+  }
+
+  /// Lets time pass; a coordinator that `answers` the time requests and beacons.
+  void fly(Duration duration, bool answers = true) {
+    for (const LocalTime end = now_ + duration; now_ < end; now_ += milliseconds(10)) {
+      if (vehicle_) tell(*vehicle_);
+      if (answers && course_) beacon();
+      const Outputs out = tell(Tick{});
+      if (answers && out.time_request) tell(TimeReplyArrived{reply_to(*out.time_request), now_});
+      if (visit_ && out.setpoint) visit_(*out.setpoint);
+    }
+  }
+
+  Outputs beacon() { return tell(Beacon{kTerm, ++sequence_, swarm(), *course_}); }
+
+  Outputs offer(const std::vector<PlanNumber>& numbers, std::uint64_t term = kTerm) {
+    protocol::PlanOffer offer{1, term, {}};
+    for (const PlanNumber& n : numbers) offer.slices.push_back({n, slice(n)});
+    return tell(offer);
+  }
+
+  [[nodiscard]] mechanics::CarrierSlice slice(const PlanNumber& n) const {
+    mechanics::Plan plan = mechanics::test::polygon_plan(4);
+    if (n == kRest) plan = mechanics::rest_plan(plan);
+    if (n == kOther) plan.cycle.rate_rad_s *= 1.3;
+    return mechanics::slices(plan).front();
+  }
+
+  void rest() {
+    offer({kRest, kMotion, kOther});
+    course_ = Course{1, {kRest, swarm()}, {}};
+    vehicle_at_rest();
+    fly(seconds(3));
+  }
+
+  void vehicle_at_rest() {
+    const auto r = mechanics::evaluate(slice(kRest), 0.0);
+    vehicle_ = protocol::CarrierState{};
+    vehicle_->carrier = 1;
+    vehicle_->position_w_m = r.position_w_m.value;
+    vehicle_->tension_n = r.tension_n.value;
+    vehicle_->winch_length_m = vehicle_->cable_length_m = r.length_m.value;
+    if (const double k = slice(kRest).cable_stiffness_n_m; k > 0.0) vehicle_->winch_length_m -= r.tension_n.value / k;
+  }
+
+  void transition(const PlanNumber& to, Duration in, Duration duration, Stage stage = Stage::kGo) {
+    course_->transitions.push_back({++id_, {to, swarm() + in}, swarm() + in, duration, stage});
+    ++course_->revision;
+  }
+
+  /// From now on, no setpoint may be further from the last than its own rates explain.
+  void watch_for_steps() {
+    visit_ = [this, last = setpoint_](const protocol::Setpoint& s) mutable {
+      if (last) {
+        const double dt = gyre::seconds(s.swarm_time - last->swarm_time);
+        const Eigen::Vector3d mean = 0.5 * (s.velocity_w_m_s + last->velocity_w_m_s);
+        EXPECT_LT((s.position_w_m - last->position_w_m - dt * mean).norm(), 1e-4);
+        EXPECT_LT((s.velocity_w_m_s - last->velocity_w_m_s).norm(), 0.1);
+        EXPECT_LT(
+            std::abs(s.winch_length_m - last->winch_length_m - 0.5 * dt * (s.winch_rate_m_s + last->winch_rate_m_s)),
+            1e-4);
+        EXPECT_GT(dt, 0.0);
+      }
+      last = s;
+    };
+  }
+
+  [[nodiscard]] mechanics::Reference reference(const PlanNumber& n, SwarmTime epoch) const {
+    return mechanics::evaluate(slice(n), gyre::seconds(setpoint_->swarm_time - epoch));
+  }
+
+  LocalTime now_{-std::chrono::hours(1)};  // below zero: nothing may depend on where a clock begins
+  std::unique_ptr<Agent> agent_;
+  std::optional<Course> course_;
+  std::optional<protocol::CarrierState> vehicle_;
+  std::optional<protocol::AgentStatus> status_;
+  std::optional<protocol::HeldPlans> held_;
+  std::optional<protocol::Setpoint> setpoint_;
+  std::function<void(const protocol::Setpoint&)> visit_;
+  std::string heard_;
+  std::uint64_t sequence_ = 0;
+  std::uint64_t id_ = 0;
+};
+
+TEST_F(AgentTest, SendsNoSetpointWithoutSwarmTime) {
+  offer({kRest});
+  course_ = Course{1, {kRest, swarm()}, {}};
+  fly(seconds(2), false);
+  beacon();
+  EXPECT_FALSE(setpoint_);
+  EXPECT_EQ(status_->state, AgentState::kWaiting);
+}
+
+TEST_F(AgentTest, SendsNoSetpointWithoutThePlan) {
+  offer({kMotion});
+  course_ = Course{1, {kRest, swarm()}, {}};
+  fly(seconds(2));
+  EXPECT_FALSE(setpoint_);
+  EXPECT_EQ(status_->state, AgentState::kWaiting);
+  EXPECT_TRUE(status_->course.base.number.none()) << "flies a course it does not hold";
+}
+
+TEST_F(AgentTest, FliesThePlanAtSwarmTimeAndCompensatesStretch) {
+  rest();
+  EXPECT_EQ(status_->state, AgentState::kReady);
+  const auto r = reference(kRest, course_->base.epoch);
+  EXPECT_LT((setpoint_->position_w_m - r.position_w_m.value).norm(), 1e-9);
+  EXPECT_NEAR(setpoint_->cable_length_m, r.length_m.value, 1e-9);
+  const double k = slice(kRest).cable_stiffness_n_m;
+  EXPECT_NEAR(setpoint_->winch_length_m, r.length_m.value - (k > 0.0 ? r.tension_n.value / k : 0.0), 1e-9);
+  EXPECT_LT(std::abs(gyre::seconds(status_->swarm_time.time_since_epoch() - now_.time_since_epoch() - kOffset)), 0.2);
+}
+
+TEST_F(AgentTest, SaysWhatItHoldsAndAccepts) {
+  rest();
+  EXPECT_EQ(status_->accepted, (std::vector<PlanNumber>{kRest, kMotion, kOther}));
+  ASSERT_EQ(held_->slices.size(), 3U);
+  EXPECT_TRUE(held_->slices[1].slice == slice(kMotion));
+}
+
+TEST_F(AgentTest, ConfirmsOnlyWhatItHoldsAndInTime) {
+  rest();
+  transition({kTerm, 99}, milliseconds(600), seconds(5), Stage::kProposed);
+  fly(milliseconds(300));
+  EXPECT_EQ(status_->confirmed, 0U) << "a plan it does not hold";
+  course_->transitions.clear();
+  transition(kMotion, -milliseconds(1), seconds(5), Stage::kProposed);
+  fly(milliseconds(300));
+  EXPECT_EQ(status_->confirmed, 0U) << "too late";
+  course_->transitions.clear();
+  transition(kMotion, milliseconds(600), seconds(5), Stage::kProposed);
+  fly(milliseconds(100));
+  EXPECT_EQ(status_->confirmed, id_);
+  fly(seconds(10));
+  EXPECT_EQ(status_->state, AgentState::kReady) << "a proposal is not flown";
+}
+
+TEST_F(AgentTest, FollowsATransitionWithoutAStepAndSettles) {
+  rest();
+  watch_for_steps();
+  transition(kMotion, milliseconds(600), seconds(4));
+  fly(seconds(2));
+  EXPECT_EQ(status_->state, AgentState::kFlying);
+  fly(seconds(4));
+  EXPECT_EQ(status_->course.base.number, kMotion);
+  EXPECT_TRUE(status_->course.transitions.empty());
+  const auto r = reference(kMotion, course_->transitions[0].to.epoch);
+  EXPECT_LT((setpoint_->position_w_m - r.position_w_m.value).norm(), 1e-9);
+}
+
+TEST_F(AgentTest, AGoHeardAfterItsStartIsMergedNotJumpedTo) {
+  rest();
+  watch_for_steps();
+  transition(kMotion, milliseconds(100), seconds(3));
+  fly(seconds(2), false);  // all beacons of two seconds lost
+  EXPECT_EQ(status_->state, AgentState::kAlone);
+  fly(seconds(8));
+  const auto r = reference(kMotion, course_->transitions[0].to.epoch);
+  EXPECT_LT((setpoint_->position_w_m - r.position_w_m.value).norm(), 1e-9);
+}
+
+TEST_F(AgentTest, ManyLayersTurnedBackAndFrozenAreContinuous) {
+  rest();
+  watch_for_steps();
+  transition(kMotion, milliseconds(200), seconds(5));
+  fly(seconds(2));
+  transition(kRest, milliseconds(150), seconds(2));
+  fly(seconds(1));
+  transition(kOther, milliseconds(150), seconds(3));
+  fly(milliseconds(700));
+  transition(kMotion, milliseconds(-300), seconds(2));
+  fly(seconds(6));
+  EXPECT_EQ(status_->course.base.number, kMotion);
+}
+
+TEST_F(AgentTest, FliesOnAloneAndSaysSo) {
+  rest();
+  transition(kMotion, milliseconds(200), seconds(2));
+  fly(seconds(3));
+  watch_for_steps();
+  const Duration before = status_->clock_uncertainty;
+  fly(seconds(20), false);
+  EXPECT_EQ(status_->state, AgentState::kAlone);
+  EXPECT_GT(status_->clock_uncertainty, before);
+  EXPECT_NE(heard_.find("flying on alone"), std::string::npos);
+  EXPECT_LT(swarm() - setpoint_->swarm_time, milliseconds(30));
+  fly(seconds(1));
+  EXPECT_EQ(status_->state, AgentState::kFlying);
+  EXPECT_NE(heard_.find("is back"), std::string::npos);
+}
+
+TEST_F(AgentTest, ANewTermWithTheSameCourseIsNoStep) {
+  rest();
+  transition(kMotion, milliseconds(200), seconds(2));
+  fly(milliseconds(1200));
+  watch_for_steps();
+  tell(Beacon{2 * kTerm, 1, swarm(), *course_});
+  fly(seconds(2), false);
+  EXPECT_EQ(status_->term, 2 * kTerm);
+  EXPECT_EQ(status_->course.base.number, kMotion);
+  const auto before = agent_->dropped().wrong_term;
+  beacon();
+  offer({kRest});
+  EXPECT_EQ(agent_->dropped().wrong_term, before + 2) << "the former coordinator is not heard any more";
+  EXPECT_EQ(status_->term, 2 * kTerm);
+}
+
+TEST_F(AgentTest, WhatWasConfirmedToOneTermIsNotConfirmedToTheNext) {
+  rest();
+  transition(kMotion, milliseconds(600), seconds(5), Stage::kProposed);
+  fly(milliseconds(100));
+  ASSERT_EQ(status_->confirmed, 1U);
+  course_->transitions.clear();
+  tell(Beacon{2 * kTerm, 1, swarm(), *course_});
+  fly(milliseconds(200), false);
+  EXPECT_EQ(status_->confirmed, 0U);
+}
+
+TEST_F(AgentTest, CountsDuplicatesLateOnesAndNonsense) {
+  rest();
+  const auto before = agent_->dropped();
+  const Beacon last{kTerm, sequence_, swarm(), *course_};
+  tell(last);
+  EXPECT_EQ(agent_->dropped().duplicate, before.duplicate + 1);
+  Beacon old = last;
+  --old.sequence;
+  tell(old);
+  EXPECT_EQ(agent_->dropped().late, before.late + 1);
+  Beacon ancient = last;
+  ancient.sequence += 10;
+  ancient.swarm_time -= seconds(2);
+  tell(ancient);
+  EXPECT_EQ(agent_->dropped().late, before.late + 2);
+  Beacon future = last;
+  future.sequence += 10;
+  future.swarm_time += seconds(2);
+  tell(future);
+  EXPECT_EQ(agent_->dropped().nonsense, before.nonsense + 1);
+  protocol::PlanOffer foreign{2, kTerm, {{kOther, slice(kOther)}}};
+  foreign.slices[0].slice.id = 2;
+  tell(foreign);
+  EXPECT_EQ(agent_->dropped().nonsense, before.nonsense + 2);
+  protocol::PlanOffer nan{1, kTerm, {{{kTerm, 9}, slice(kOther)}}};
+  nan.slices[0].slice.rate_rad_s = std::numeric_limits<double>::quiet_NaN();
+  tell(nan);
+  EXPECT_EQ(agent_->dropped().nonsense, before.nonsense + 3);
+  protocol::CarrierState state = *vehicle_;
+  state.position_w_m.x() = std::numeric_limits<double>::infinity();
+  tell(state);
+  state = *vehicle_;
+  state.carrier = 3;
+  tell(state);
+  EXPECT_EQ(agent_->dropped().nonsense, before.nonsense + 5);
+  tell(TimeReplyArrived{{1, 77, 1, kTerm, now_, swarm(), swarm()}, now_});
+  EXPECT_EQ(agent_->dropped().nonsense, before.nonsense + 6) << "a reply to a former life";
+}
+
+TEST_F(AgentTest, ALieToldTwiceIsOneLie) {
+  rest();
+  Outputs out;
+  while (!out.time_request) {
+    now_ += milliseconds(10);
+    out = tell(Tick{});
+  }
+  protocol::TimeReply lie = reply_to(*out.time_request);
+  lie.request_received += seconds(9);
+  lie.reply_sent += seconds(9);
+  const auto duplicates = agent_->dropped().duplicate;
+  for (int i = 0; i < 20; ++i) tell(TimeReplyArrived{lie, now_});
+  EXPECT_EQ(agent_->dropped().duplicate, duplicates + 19);
+  fly(milliseconds(50));
+  EXPECT_LT(std::abs(gyre::seconds(swarm() - setpoint_->swarm_time)), 0.05);
+}
+
+TEST_F(AgentTest, RefusesAPlanItsVehicleCannotFlyAndNeverFliesIt) {
+  mechanics::Limits weak;
+  weak.speed_max_m_s = 1e-3;
+  restart(2, weak);
+  rest();
+  EXPECT_EQ(status_->accepted, std::vector<PlanNumber>{kRest});
+  EXPECT_FALSE(status_->refused.none());
+  EXPECT_NE(status_->refusal.find("speed"), std::string::npos);
+  EXPECT_NE(heard_.find("plan refused"), std::string::npos);
+  transition(kMotion, milliseconds(300), seconds(2));
+  fly(seconds(4));
+  EXPECT_EQ(status_->course.base.number, kRest);
+  EXPECT_TRUE(status_->course.transitions.empty());
+  EXPECT_LT(setpoint_->velocity_w_m_s.norm(), 1e-12);
+}
+
+TEST_F(AgentTest, AStallIsNotMadeUpFor) {
+  rest();
+  const std::uint64_t before = setpoint_->sequence;
+  now_ += seconds(2);
+  const Outputs first = tell(Tick{});
+  EXPECT_EQ(first.next_tick, now_ + milliseconds(10));
+  for (int i = 0; i < 100; ++i) tell(Tick{});
+  EXPECT_EQ(setpoint_->sequence, before + 1);
+}
+
+TEST_F(AgentTest, RestartedInFlightItBeginsWhereItsCarrierIs) {
+  rest();
+  vehicle_->position_w_m += Eigen::Vector3d(0.3, -0.2, 0.1);
+  vehicle_->velocity_w_m_s = Eigen::Vector3d(0.2, 0.1, 0.0);
+  restart(3);
+  setpoint_.reset();
+  std::optional<protocol::Setpoint> first;
+  course_->transitions.clear();
+  course_->base = {kMotion, swarm() - seconds(7)};
+  offer({kRest, kMotion, kOther});
+  visit_ = [&](const protocol::Setpoint& s) {
+    if (!first) first = s;
+  };
+  fly(milliseconds(500));
+  ASSERT_TRUE(first);
+  EXPECT_LT((first->position_w_m - vehicle_->position_w_m).norm(), 0.01);
+  watch_for_steps();
+  fly(seconds(20));
+  const auto r = reference(kMotion, course_->base.epoch);
+  EXPECT_LT((setpoint_->position_w_m - r.position_w_m.value).norm(), 1e-9);
+}
+
+TEST_F(AgentTest, RestartedItWaitsForItsVehicleButNotForEver) {
+  offer({kRest, kMotion});
+  course_ = Course{1, {kMotion, swarm()}, {}};
+  fly(milliseconds(400));
+  EXPECT_FALSE(setpoint_) << "where the carrier is, is not known yet";
+  fly(milliseconds(400));
+  EXPECT_TRUE(setpoint_);
+}
+
+TEST_F(AgentTest, TellsNoMorePlansThanAMessageTakes) {
+  rest();
+  for (std::uint64_t round = 0; round < 3; ++round) {
+    protocol::PlanOffer offer{1, kTerm, {}};
+    for (std::uint64_t i = 0; i < protocol::kMaxPlans; ++i) {
+      offer.slices.push_back({{kTerm, 10 + round * protocol::kMaxPlans + i}, slice(kOther)});
+    }
+    tell(offer);
+    EXPECT_LE(status_->accepted.size(), protocol::kMaxPlans);
+    EXPECT_LE(held_->slices.size(), protocol::kMaxPlans);
+    EXPECT_EQ(status_->accepted.back(), offer.slices.back().number);
+  }
+  EXPECT_EQ(status_->course.base.number, kRest) << "what is flown is kept";
+  fly(milliseconds(100));
+  EXPECT_LT(swarm() - setpoint_->swarm_time, milliseconds(20));
+}
+
+}  // namespace
+}  // namespace gyre::agent

@@ -10,10 +10,10 @@
 #include "common/mechanics/certificate.hpp"
 #include "ground/certificate_table.hpp"
 #include "ground/command.hpp"
-#include "ground/flight.hpp"
-#include "ground/flight_directory.hpp"
-#include "ground/flight_programs.hpp"
-#include "ground/flight_table.hpp"
+#include "ground/flight/flight.hpp"
+#include "ground/flight/flight_directory.hpp"
+#include "ground/flight/flight_programs.hpp"
+#include "ground/flight/flight_table.hpp"
 
 namespace gyre::ground {
 namespace {

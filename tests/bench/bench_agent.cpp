@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "common/dds/node.hpp"
-#include "ground/child_process.hpp"
-#include "ground/flight_directory.hpp"
+#include "ground/flight/child_process.hpp"
+#include "ground/flight/flight_directory.hpp"
 
 namespace {
 

@@ -1,12 +1,12 @@
 // How far a flight has come, told by messages and a clock that is an argument; and who is missing.
 
-#include "ground/flight_monitor.hpp"
+#include "ground/flight/flight_monitor.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "ground/flight_certificate.hpp"
+#include "ground/flight/flight_certificate.hpp"
 
 namespace gyre::ground {
 namespace {

@@ -17,8 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "ground/child_process.hpp"
-#include "ground/flight_directory.hpp"
+#include "ground/flight/child_process.hpp"
+#include "ground/flight/flight_directory.hpp"
 
 namespace gyre::test {
 

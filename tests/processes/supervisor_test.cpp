@@ -1,6 +1,6 @@
 // Processes that cannot be left behind: ends are told, bounds are kept, and nobody survives the supervisor.
 
-#include "ground/supervisor.hpp"
+#include "ground/flight/supervisor.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -12,8 +12,8 @@
 #include <filesystem>
 #include <thread>
 
-#include "ground/flight_directory.hpp"
-#include "ground/flight_programs.hpp"
+#include "ground/flight/flight_directory.hpp"
+#include "ground/flight/flight_programs.hpp"
 
 namespace gyre::ground {
 namespace {

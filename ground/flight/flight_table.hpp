@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "ground/flight_report.hpp"
+#include "ground/flight/flight_report.hpp"
 
 namespace gyre::ground {
 

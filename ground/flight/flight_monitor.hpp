@@ -1,7 +1,7 @@
 #pragma once
 // Follows a flight by what its processes say: how far it has come, and what is missing.
 //
-// Pure: told the time, told each message. It decides nothing; ground/flight.cpp acts on what it answers.
+// Pure: told the time, told each message. It decides nothing; ground/flight/flight.cpp acts on what it answers.
 
 #include <map>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "ground/flight_table.hpp"
+#include "ground/flight/flight_table.hpp"
 
 #include <algorithm>
 #include <cmath>

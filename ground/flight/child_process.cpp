@@ -1,4 +1,4 @@
-#include "ground/child_process.hpp"
+#include "ground/flight/child_process.hpp"
 
 #include <fcntl.h>
 #include <linux/close_range.h>

@@ -11,13 +11,13 @@
 
 #include "common/dds/inbox.hpp"
 #include "common/mission/mission.hpp"
-#include "ground/flight_certificate.hpp"
-#include "ground/flight_display.hpp"
-#include "ground/flight_monitor.hpp"
-#include "ground/flight_network.hpp"
-#include "ground/flight_record.hpp"
-#include "ground/flight_report.hpp"
-#include "ground/supervisor.hpp"
+#include "ground/flight/flight_certificate.hpp"
+#include "ground/flight/flight_display.hpp"
+#include "ground/flight/flight_monitor.hpp"
+#include "ground/flight/flight_network.hpp"
+#include "ground/flight/flight_record.hpp"
+#include "ground/flight/flight_report.hpp"
+#include "ground/flight/supervisor.hpp"
 
 namespace gyre::ground {
 

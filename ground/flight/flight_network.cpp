@@ -1,4 +1,4 @@
-#include "ground/flight_network.hpp"
+#include "ground/flight/flight_network.hpp"
 
 #include <cstdlib>
 #include <optional>

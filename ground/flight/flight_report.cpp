@@ -1,4 +1,4 @@
-#include "ground/flight_report.hpp"
+#include "ground/flight/flight_report.hpp"
 
 #include <algorithm>
 #include <cmath>

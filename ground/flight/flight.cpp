@@ -1,4 +1,4 @@
-#include "ground/flight.hpp"
+#include "ground/flight/flight.hpp"
 
 #include <csignal>
 #include <thread>
@@ -6,7 +6,7 @@
 
 #include "common/base/interrupts.hpp"
 #include "common/base/text.hpp"
-#include "ground/flight_programs.hpp"
+#include "ground/flight/flight_programs.hpp"
 
 namespace gyre::ground {
 namespace {

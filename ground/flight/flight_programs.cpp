@@ -1,4 +1,4 @@
-#include "ground/flight_programs.hpp"
+#include "ground/flight/flight_programs.hpp"
 
 #include <unistd.h>
 

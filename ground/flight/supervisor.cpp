@@ -1,4 +1,4 @@
-#include "ground/supervisor.hpp"
+#include "ground/flight/supervisor.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "ground/flight_directory.hpp"
+#include "ground/flight/flight_directory.hpp"
 
 #include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp is POSIX
 

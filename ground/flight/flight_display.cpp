@@ -1,4 +1,4 @@
-#include "ground/flight_display.hpp"
+#include "ground/flight/flight_display.hpp"
 
 #include <unistd.h>
 

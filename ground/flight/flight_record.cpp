@@ -1,4 +1,4 @@
-#include "ground/flight_record.hpp"
+#include "ground/flight/flight_record.hpp"
 
 #include <algorithm>
 #include <cmath>

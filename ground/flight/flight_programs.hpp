@@ -6,7 +6,7 @@
 
 #include "common/base/ids.hpp"
 #include "common/base/result.hpp"
-#include "ground/supervisor.hpp"
+#include "ground/flight/supervisor.hpp"
 
 namespace gyre::ground {
 

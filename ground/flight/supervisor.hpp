@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/base/result.hpp"
-#include "ground/child_process.hpp"
+#include "ground/flight/child_process.hpp"
 
 namespace gyre::ground {
 

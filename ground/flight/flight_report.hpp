@@ -11,8 +11,8 @@
 
 #include "common/mechanics/certificate.hpp"
 #include "common/mission/mission.hpp"
-#include "ground/flight_certificate.hpp"
-#include "ground/flight_record.hpp"
+#include "ground/flight/flight_certificate.hpp"
+#include "ground/flight/flight_record.hpp"
 
 namespace gyre::ground {
 

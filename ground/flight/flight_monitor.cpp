@@ -1,10 +1,10 @@
-#include "ground/flight_monitor.hpp"
+#include "ground/flight/flight_monitor.hpp"
 
 #include <algorithm>
 
 #include "common/base/text.hpp"
 #include "common/protocol/course.hpp"
-#include "ground/flight_certificate.hpp"
+#include "ground/flight/flight_certificate.hpp"
 
 namespace gyre::ground {
 namespace {

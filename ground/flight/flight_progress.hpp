@@ -5,8 +5,8 @@
 #include <string>
 
 #include "common/base/time.hpp"
-#include "ground/flight_monitor.hpp"
-#include "ground/flight_record.hpp"
+#include "ground/flight/flight_monitor.hpp"
+#include "ground/flight/flight_record.hpp"
 
 namespace gyre::ground {
 

@@ -1,4 +1,4 @@
-#include "ground/flight_progress.hpp"
+#include "ground/flight/flight_progress.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "ground/flight_certificate.hpp"
+#include "ground/flight/flight_certificate.hpp"
 
 #include <algorithm>
 

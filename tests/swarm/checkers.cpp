@@ -19,12 +19,25 @@ constexpr double kMerging_m = 1e-6;
 /// Peaks of the smooth step's derivatives: 15/8 per duration, 10/sqrt(3) per duration squared.
 constexpr double kPacePeak = 1.875;
 constexpr double kBendPeak = 5.7735;
-/// Freezing and turning back take at least this long (coordinator options).
+/// Of the clock that is read, by rounding and by reading it at two moments of one step.
 constexpr double kSwarmTimeJump_s = 2e-6;
 
 double internal_n(const mechanics::CarrierSlice& slice) {
   return std::abs(slice.incoming.offset_n) + std::abs(slice.incoming.amplitude_n) + std::abs(slice.outgoing.offset_n) +
          std::abs(slice.outgoing.amplitude_n);
+}
+
+/// No carrier is further from its attachment in any motion.
+double reach_m_of(const LoadWithMotions& load) {
+  double reach_m = 0.0;
+  for (const mechanics::Plan& plan : load.motions) {
+    for (const mechanics::CarrierSlice& slice : slices(plan)) {
+      for (int i = 0; i < 32; ++i) {
+        reach_m = std::max(reach_m, mechanics::evaluate(slice, period_s(plan) * i / 32.0).length_m.value);
+      }
+    }
+  }
+  return reach_m;
 }
 
 /// How much each plan counts at `now`.
@@ -99,7 +112,10 @@ Checkers::Checkers(const LoadWithMotions& load, const Scenario& scenario) : load
   shortest_transition_s_ = std::min(seconds(scenario.transition), 2.0);
   curvature_n_s2_ = change_n_ * (rate_rad_s * rate_rad_s + kBendPeak / std::pow(shortest_transition_s_, 2) +
                                  2.0 * rate_rad_s * kPacePeak / shortest_transition_s_);
-  acceleration_m_s2_ = 4.0 * load.vehicle.acceleration_max_m_s2.value();
+  // Transitions here are not rehearsed: they may ask for more than the limits, as much as their shortness makes them.
+  const double travel_m = 2.0 * reach_m_of(load);
+  acceleration_m_s2_ =
+      2.0 * load.vehicle.acceleration_max_m_s2.value() + kBendPeak * travel_m / std::pow(shortest_transition_s_, 2);
 }
 
 void Checkers::report(Finding::Kind kind, TrueTime at, const std::string& rule, const std::string& text) {
@@ -124,11 +140,17 @@ void Checkers::status(std::size_t agent, TrueTime now, const protocol::AgentStat
   a.uncertainty = status.clock_uncertainty;
 }
 
-void Checkers::setpoint(std::size_t agent, TrueTime now, const protocol::Setpoint& setpoint) {
+void Checkers::setpoint(std::size_t agent, TrueTime now, const protocol::Setpoint& setpoint,
+                        const protocol::Course& course) {
   Agent& a = agents_[agent];
   ++extremes_.setpoints;
   a.before = a.last;
   a.last = Sample{now, setpoint};
+  a.changed = 0.0;
+  if (!(a.flown == course)) {
+    if (a.before) a.changed = difference(a.flown, course, setpoint.swarm_time);
+    a.flown = course;
+  }
   if (a.before) check_continuity(now, a, *a.before, *a.last);
 }
 
@@ -171,7 +193,7 @@ struct Checkers::Moment {
   double gap_s = 0.0;            ///< longest between two setpoints
 };
 
-void Checkers::instant(TrueTime now, const std::vector<const protocol::Course*>& courses) {
+void Checkers::instant(TrueTime now) {
   disagreement_.reset();
   merging_now_ = false;
   Moment m;
@@ -203,20 +225,21 @@ void Checkers::instant(TrueTime now, const std::vector<const protocol::Course*>&
   check_clocks(m);
 
   double half_applied = 0.0;
+  double changed = 0.0;
   double duration_s = 1e9;
   double pace_per_s = 0.0;
-  for (const protocol::Course* course : courses) {
-    if (course == nullptr) return;
-    half_applied = std::max(half_applied, difference(*courses.front(), *course, m.swarm));
-    for (const protocol::Transition& t : course->transitions) {
+  for (const Agent& a : agents_) {
+    half_applied = std::max(half_applied, difference(agents_.front().flown, a.flown, m.swarm));
+    changed = std::max(changed, a.changed);
+    for (const protocol::Transition& t : a.flown.transitions) {
       duration_s = std::min(duration_s, seconds(t.duration));
       pace_per_s =
-          std::max(pace_per_s, static_cast<double>(course->transitions.size()) * kPacePeak / seconds(t.duration));
+          std::max(pace_per_s, static_cast<double>(a.flown.transitions.size()) * kPacePeak / seconds(t.duration));
     }
   }
-  for (const protocol::Course* a : courses) {
+  for (const Agent& a : agents_) {
     if (half_applied == 0.0) break;
-    for (const protocol::Course* b : courses) half_applied = std::max(half_applied, difference(*a, *b, m.swarm));
+    for (const Agent& b : agents_) half_applied = std::max(half_applied, difference(a.flown, b.flown, m.swarm));
   }
   extremes_.half_applied = std::max(extremes_.half_applied, half_applied);
   if (m.at > calm_from_) {
@@ -227,7 +250,7 @@ void Checkers::instant(TrueTime now, const std::vector<const protocol::Course*>&
                   duration_s, half_applied_bound(duration_s)));
     }
   }
-  check_equilibrium(m, half_applied, pace_per_s);
+  check_equilibrium(m, half_applied + changed, pace_per_s);
 }
 
 void Checkers::check_clocks(const Moment& m) {

@@ -48,7 +48,8 @@ class Checkers {
  public:
   Checkers(const LoadWithMotions& load, const Scenario& scenario);
 
-  void setpoint(std::size_t agent, TrueTime now, const protocol::Setpoint& setpoint);
+  /// `course`: what the agent flew when it sent this.
+  void setpoint(std::size_t agent, TrueTime now, const protocol::Setpoint& setpoint, const protocol::Course& course);
   void status(std::size_t agent, TrueTime now, const protocol::AgentStatus& status);
   /// The process of this agent begins a new life: what it says is held against nothing it said before.
   void begins(std::size_t agent);
@@ -56,8 +57,8 @@ class Checkers {
   /// Somebody died, hung, was cut off, or the weather is bad: the bounds that hold in calm do not for a while.
   void disturbed(TrueTime until) { calm_from_ = std::max(calm_from_, until); }
   void lies_told() { lies_ = true; }
-  /// All that lives is looked at together; `courses[agent]`: nullptr for the dead.
-  void instant(TrueTime now, const std::vector<const protocol::Course*>& courses);
+  /// All that lives is looked at together.
+  void instant(TrueTime now);
 
   void report(Finding::Kind kind, TrueTime at, const std::string& rule, const std::string& text);
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
@@ -76,6 +77,8 @@ class Checkers {
     std::optional<Sample> last, before;
     std::uint64_t term = 0;
     Duration uncertainty = Duration::max();
+    protocol::Course flown;
+    double changed = 0.0;  ///< of the motion, from the setpoint before to the last one, by taking up another course
   };
   struct Moment;
 

@@ -46,6 +46,12 @@ void come_to_rest(Swarm& swarm) {
   }
 }
 
+void come_back(Swarm& swarm) {
+  if (fly_until(swarm, kMergedWithin, [&] { return swarm.merged(); })) return;
+  swarm.checkers().report(Finding::Kind::kLiveness, swarm.now(), "merging",
+                          text("somebody is not back at its place %.0f s after the end", seconds(kMergedWithin)));
+}
+
 }  // namespace
 
 FlightReport fly(const Scenario& scenario, const Sabotage& sabotage, const Swarm::Trace& trace) {
@@ -55,6 +61,7 @@ FlightReport fly(const Scenario& scenario, const Sabotage& sabotage, const Swarm
   swarm.run_until(scenario.heal);
   find_together(swarm, report);
   come_to_rest(swarm);
+  come_back(swarm);
   report.findings = swarm.checkers().findings();
   report.extremes = swarm.checkers().extremes();
   report.faults = swarm.faults();

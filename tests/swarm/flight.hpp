@@ -11,6 +11,8 @@ namespace gyre::swarm {
 /// From the end of all faults.
 inline constexpr Duration kAgreeWithin = std::chrono::seconds(20);
 inline constexpr Duration kRestWithin = std::chrono::seconds(30);
+/// Until everybody is back where its plan wants it: a vehicle may be metres away and slow.
+inline constexpr Duration kMergedWithin = std::chrono::seconds(60);
 inline constexpr Duration kClocksWithin = std::chrono::milliseconds(2);
 
 struct FlightReport {

@@ -54,7 +54,7 @@ class Writer {
 void Writer::clocks() {
   for (std::size_t i = 0; i < kCoordinators + carriers(); ++i) {
     s_.clock_offsets.push_back(std::chrono::duration_cast<Duration>(std::chrono::seconds(1)) *
-                                   static_cast<int>(draw(-1e4, 1e6)) +
+                                   static_cast<int>(draw(-5e5, 1e6)) +
                                span(0.0, 1.0));
     s_.clock_drifts.push_back(draw(-kDriftMax, kDriftMax));
   }

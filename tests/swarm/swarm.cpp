@@ -163,8 +163,8 @@ void Swarm::act(const Action& a) {
       return command(a.command);
     case Deed::kRetune: {
       ++faults_.retunes;
-      coordinator::Job job{"retuned", load_.motions[a.motion], scenario_.transition, scenario_.on_agent_loss};
-      const auto message = std::make_shared<const Message>(Message{coordinator::Retune{++commands_sent_, job}});
+      const auto message =
+          std::make_shared<const Message>(Message{coordinator::Retune{++commands_sent_, job(a.motion)}});
       for (std::size_t c = 0; c < kCoordinators; ++c) {
         if (processes_[c].running()) arrive(c, *message);
       }
@@ -190,11 +190,7 @@ void Swarm::observe() {
   const bool bad = w.loss > 0.3 || w.bursts_per_s > 0.0 || w.overtaken > 0.0 || w.lies > 0.0 ||
                    !network_.groups.empty() || coordinators_alive() != 1;
   if (bad) checkers_.disturbed(now_ + kAftermath);
-  std::vector<const protocol::Course*> courses;
-  for (std::size_t p = kCoordinators; p < processes_.size(); ++p) {
-    courses.push_back(processes_[p].agent ? &processes_[p].agent->course() : nullptr);
-  }
-  checkers_.instant(now_, courses);
+  checkers_.instant(now_);
 }
 
 // --------------------------------------------------------------------------------------------------- life and death
@@ -202,6 +198,15 @@ void Swarm::observe() {
 LocalTime Swarm::local(std::size_t process) {
   const Duration error = sabotage_.clock_error ? sabotage_.clock_error(process, now_) : Duration::zero();
   return processes_[process].clock.at(now_) + error;
+}
+
+coordinator::Job Swarm::job(std::size_t motion) const {
+  coordinator::Job job;
+  job.name = text("motion %zu", motion);
+  job.plan = load_.motions[motion];
+  if (!scenario_.rehearse) job.transition = scenario_.transition;  // a rehearsal chooses the duration itself
+  job.on_agent_loss = scenario_.on_agent_loss;
+  return job;
 }
 
 void Swarm::start(std::size_t process) {
@@ -226,8 +231,7 @@ void Swarm::start(std::size_t process) {
     options.nonce = chores_.next();
     options.engage_when_ready = scenario_.engage_when_ready && !healed_;
     options.agreement.rehearse = scenario_.rehearse;
-    const coordinator::Job job{"virtual", load_.motions.front(), scenario_.transition, scenario_.on_agent_loss};
-    p.coordinator = std::make_unique<coordinator::Coordinator>(job, options);
+    p.coordinator = std::make_unique<coordinator::Coordinator>(job(0), options);
   }
   p.tick_at = now_;
   schedule({now_, 0, Happening::kTick, process, p.life, nullptr});
@@ -392,7 +396,7 @@ void Swarm::perform(std::size_t process, const agent::Outputs& out) {
     for (std::size_t c = 0; c < kCoordinators; ++c) send(process, c, message);
   }
   if (out.setpoint) {
-    checkers_.setpoint(index, now_, *out.setpoint);
+    checkers_.setpoint(index, now_, *out.setpoint, processes_[process].agent->course());
     vehicles_[index] = {now_, *out.setpoint};
     processes_[process].sends_setpoints = true;
   }
@@ -516,7 +520,6 @@ bool Swarm::agrees(Duration clock_bound, std::string* why) const {
   const auto disagreement = checkers_.disagreement();
   if (!disagreement) return no("not every agent flies");
   if (*disagreement > clock_bound) return no(text("the clocks differ by %.3g ms", 1e3 * seconds(*disagreement)));
-  if (checkers_.anybody_merging()) return no("somebody still merges");
   const coordinator::Coordinator& leader = *coordinator();
   for (std::size_t p = kCoordinators; p < processes_.size(); ++p) {
     const protocol::Course& course = processes_[p].agent->course();

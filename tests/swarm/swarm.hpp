@@ -67,6 +67,7 @@ class Swarm {
   [[nodiscard]] const coordinator::Coordinator* coordinator() const;  ///< the one that lives, if one does
   [[nodiscard]] bool agrees(Duration clock_bound, std::string* why) const;
   [[nodiscard]] bool at_rest() const;
+  [[nodiscard]] bool merged() const { return !checkers_.anybody_merging(); }
   [[nodiscard]] std::optional<coordinator::Outcome> last_outcome() const { return last_outcome_; }
   [[nodiscard]] const std::vector<protocol::CommandReply>& replies() const { return replies_; }
 
@@ -102,6 +103,7 @@ class Swarm {
   void perform(std::size_t process, const coordinator::Outputs& out);
   void watch_course(std::size_t process);
   [[nodiscard]] LocalTime local(std::size_t process);
+  [[nodiscard]] coordinator::Job job(std::size_t motion) const;
   [[nodiscard]] protocol::CarrierState vehicle_state(std::size_t agent) const;
   template <class T>
   void say(T&& what) {

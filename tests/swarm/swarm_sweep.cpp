@@ -1,8 +1,8 @@
 // swarm_sweep --flights N --first-seed S: flights by the million. swarm_sweep --seed S: one flight, told.
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <map>
 
 #include "tests/swarm/flight.hpp"
@@ -27,21 +27,25 @@ int replay(std::uint64_t seed) {
   return report.good() ? 0 : 1;
 }
 
+/// Of this process: other programs on the machine are not its fault.
+double processor_s() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
 int sweep(std::uint64_t first, std::uint64_t flights, int shown) {
   std::map<std::string, std::uint64_t> broken;
   double flown_s = 0.0, agreed_s = 0.0, four_flown_s = 0.0, four_took_s = 0.0, half_calm = 0.0, of_bound = 0.0,
          step = 0.0;
   std::uint64_t bad = 0;
   (void)swarm::loads();
-  const auto began = std::chrono::steady_clock::now();
+  const double began_s = processor_s();
   for (std::uint64_t seed = first; seed < first + flights; ++seed) {
     const swarm::Scenario scenario = swarm::scenario(seed);
-    const auto at = std::chrono::steady_clock::now();
+    const double before_s = processor_s();
     const swarm::FlightReport report = swarm::fly(scenario);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - at;
     if (swarm::loads()[scenario.load].size() == 4) {
       four_flown_s += seconds(report.flown);
-      four_took_s += took.count();
+      four_took_s += processor_s() - before_s;
     }
     flown_s += seconds(report.flown);
     agreed_s = std::max(agreed_s, seconds(report.agreed_after));
@@ -55,7 +59,7 @@ int sweep(std::uint64_t first, std::uint64_t flights, int shown) {
         std::printf("seed %llu: %s: %s\n", static_cast<unsigned long long>(seed), f.rule.c_str(), f.text.c_str());
     }
   }
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+  const double took_s = processor_s() - began_s;
   std::printf("%llu flights, %llu with findings\n", static_cast<unsigned long long>(flights),
               static_cast<unsigned long long>(bad));
   for (const auto& [rule, count] : broken)
@@ -63,8 +67,8 @@ int sweep(std::uint64_t first, std::uint64_t flights, int shown) {
   std::printf(
       "longest agreement %.2f s, half applied in calm %.3g, residual %.3g of its bound, step %.3g of its bound\n",
       agreed_s, half_calm, of_bound, step);
-  std::printf("%.0f s flown in %.1f s: %.0f times faster than real time; n = 4: %.0f times\n", flown_s, took.count(),
-              flown_s / took.count(), four_flown_s / four_took_s);
+  std::printf("%.0f s flown in %.1f s of one core: %.0f times faster than real time; n = 4: %.0f times\n", flown_s,
+              took_s, flown_s / took_s, four_flown_s / four_took_s);
   return bad == 0 ? 0 : 1;
 }
 

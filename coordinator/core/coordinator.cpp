@@ -47,7 +47,8 @@ void Coordinator::tell(Outputs& out, Notice::Level level, const std::string& tex
 void Coordinator::on(LocalTime now, const Tick& /*tick*/, Outputs& out) {
   if (now < next_tick_) return;
   // A stall is not made up for: the next beacon is one period from now, not a burst of the missed ones.
-  next_tick_ = std::max(next_tick_ + options_.beacon_period, now);
+  next_tick_ += options_.beacon_period;
+  if (next_tick_ <= now) next_tick_ = now + options_.beacon_period;
   watch_agents(now, out);
   if (term_ == 0) {
     listen(now, out);
@@ -87,19 +88,24 @@ void Coordinator::on(LocalTime now, const protocol::AgentStatus& status, Outputs
   if (term_ == 0) {
     recovery_.take(now, status);
   } else if (status.term > term_) {
-    out.finished =
-        Outcome{false, text("carrier %u follows a newer coordinator (term %llu, this one has %llu): standing down",
-                            status.carrier, generation(status.term), generation(term_))};
+    stand_down(text("carrier %u follows a newer coordinator (term %llu, this one has %llu): standing down",
+                    status.carrier, generation(status.term), generation(term_)),
+               out);
   }
 }
 
-void Coordinator::on(LocalTime /*now*/, const protocol::HeldPlans& held, Outputs& /*out*/) {
+void Coordinator::on(LocalTime /*now*/, const protocol::HeldPlans& held, Outputs& out) {
   const bool ours = std::find(carriers_.begin(), carriers_.end(), held.carrier) != carriers_.end();
   if (!ours || !sane(protocol::PlanOffer{held.carrier, 0, held.slices})) {
     ++dropped_.nonsense;
     return;
   }
-  if (term_ == 0) recovery_.take(held);
+  if (term_ == 0) return recovery_.take(held);
+  // Somebody who was out of reach when this coordinator recovered may still bring what nobody else knows.
+  bool learned = false;
+  for (const protocol::NumberedSlice& numbered : held.slices)
+    learned = plans_.complete(held.carrier, numbered) || learned;
+  if (learned) offer_plans(out);
 }
 
 void Coordinator::on(LocalTime now, const TimeRequestArrived& event, Outputs& out) {
@@ -120,11 +126,17 @@ void Coordinator::on(LocalTime /*now*/, const protocol::Beacon& beacon, Outputs&
   } else if (beacon.term < term_) {
     ++dropped_.wrong_term;
   } else if (beacon.term > term_) {
-    out.finished = Outcome{
-        false, text("another coordinator flies this swarm (term %llu): standing down; end it first, or use another "
+    stand_down(text("another coordinator flies this swarm (term %llu): standing down; end it first, or use another "
                     "domain",
-                    generation(beacon.term))};
+                    generation(beacon.term)),
+               out);
   }
+}
+
+void Coordinator::stand_down(const std::string& why, Outputs& out) {
+  if (agreement_ && agreement_->intent().command) answer(*agreement_->intent().command, false, why, out);
+  agreement_.reset();
+  out.finished = Outcome{false, why};
 }
 
 bool Coordinator::heard_before(std::uint64_t command, Outputs& out) {
@@ -165,7 +177,6 @@ void Coordinator::on(LocalTime now, const protocol::Command& command, Outputs& o
   if (destination() == to) return refuse(text("already there: the %s plan", plans_.name(to)));
   if (const auto why = obstacle(now, to)) return refuse(*why);
   engage_ = false;
-  frozen_for_loss_ = false;
   begin(now, intent_to(to, command.id));
 }
 
@@ -176,13 +187,19 @@ void Coordinator::on(LocalTime now, const Retune& retune, Outputs& out) {
   if (!retune.job) return refuse(retune.job.error().text);
   if (!room_for_transition()) return refuse("too many transitions are under way; wait until they are complete");
   if (const auto why = retune_obstacle(job_.plan, retune.job.value().plan)) return refuse(*why);
-  const bool at_rest = destination() == rest_;
+  const bool at_rest = !moves(destination());
+  before_retune_ = Mission{job_, rest_, motion_};
   job_ = retune.job.value();
   rest_ = plans_.add(term_, by_carrier(mechanics::slices(mechanics::rest_plan(job_.plan))), "rest");
   motion_ = plans_.add(term_, by_carrier(mechanics::slices(job_.plan)), "motion");
+  const protocol::PlanNumber to = at_rest ? rest_ : motion_;
+  if (const auto why = obstacle(now, to)) {
+    undo_retune();
+    return refuse(*why);
+  }
   offer_plans(out);
   // The agents see the plan and the proposal in the same moment; the lead is theirs to accept and confirm.
-  begin(now, intent_to(at_rest ? rest_ : motion_, retune.command));
+  begin(now, intent_to(to, retune.command));
 }
 
 void Coordinator::on(LocalTime /*now*/, const Shutdown& /*shutdown*/, Outputs& out) {
@@ -206,11 +223,15 @@ void Coordinator::listen(LocalTime now, Outputs& out) {
   // Once everybody was heard, with every plan of the course if there is one, there is nothing left to learn.
   const auto known = [this](const protocol::AgentStatus& s) { return recovery_.complete_for(s.carrier); };
   if (!fleet_.missing(now, known).empty() && now - *listening_since_ < options_.listening) return;
+  // Nobody heard is nobody to lead; and whoever flies out there would not take a swarm time that is not theirs.
+  const auto heard = [this](CarrierId id) { return fleet_.status(id) != nullptr; };
+  if (std::none_of(carriers_.begin(), carriers_.end(), heard)) return;
   take_term(now, out);
 }
 
 void Coordinator::take_term(LocalTime now, Outputs& out) {
   term_ = protocol::next_term(recovery_.highest_term(), options_.nonce);
+  term_since_ = now;
   last_transition_ = recovery_.last_transition();
   for (const auto& [number, slices] : recovery_.plans()) plans_.learn(number, slices);
 

@@ -118,7 +118,9 @@ class Coordinator {
   void begin(LocalTime now, Intent intent);
   void pursue(LocalTime now, Outputs& out);
   void go(Outputs& out);
-  void give_up(LocalTime now, Outputs& out);
+  void give_up(LocalTime now, const std::string& why, Outputs& out);
+  void undo_retune();
+  void stand_down(const std::string& why, Outputs& out);
 
   [[nodiscard]] SwarmTime swarm_time(LocalTime now) const { return SwarmTime(now.time_since_epoch() + swarm_offset_); }
   [[nodiscard]] protocol::PlanNumber destination() const;
@@ -126,10 +128,12 @@ class Coordinator {
                                                           SwarmTime origin) const;
   [[nodiscard]] std::vector<CarrierId> lost(LocalTime now) const;
   [[nodiscard]] std::vector<CarrierId> unconfirmed(LocalTime now) const;
+  [[nodiscard]] std::vector<CarrierId> without_base(LocalTime now) const;
   [[nodiscard]] std::optional<std::string> refusal_of(const protocol::PlanNumber& plan) const;
   [[nodiscard]] std::optional<std::string> obstacle(LocalTime now, const protocol::PlanNumber& to) const;
   [[nodiscard]] Duration skew_budget(const protocol::PlanNumber& plan) const;
   [[nodiscard]] Duration skew(LocalTime now) const;
+  [[nodiscard]] bool moves(const protocol::PlanNumber& plan) const;
   [[nodiscard]] bool moving() const;
   [[nodiscard]] bool room_for_transition() const;
   [[nodiscard]] Intent intent_to(const protocol::PlanNumber& to, std::optional<std::uint64_t> command) const;
@@ -151,16 +155,22 @@ class Coordinator {
   std::uint64_t last_transition_ = 0;
   protocol::PlanNumber rest_;
   protocol::PlanNumber motion_;
+  struct Mission {
+    Job job;
+    protocol::PlanNumber rest, motion;
+  };
+  std::optional<Mission> before_retune_;  ///< what is flown again if the retune that is being agreed is given up
   protocol::Course course_;
   std::optional<Agreement> agreement_;
   std::optional<std::uint64_t> starting_;  ///< transition whose start is still to be checked
 
   std::optional<LocalTime> listening_since_;
+  LocalTime term_since_{};
   LocalTime next_tick_ = LocalTime::min();  // a clock may well begin below zero
   LocalTime next_status_ = LocalTime::min();
   LocalTime retry_at_ = LocalTime::min();
   bool engage_ = false;
-  bool frozen_for_loss_ = false;
+  bool frozen_for_loss_ = false;  ///< the loss that there is has been acted on
   bool shutting_down_ = false;
   int release_failures_ = 0;
   std::string news_;

@@ -29,13 +29,14 @@ PlanNumber Coordinator::destination() const {
   return course_.transitions.empty() ? course_.base.number : course_.transitions.back().to.number;
 }
 
+bool Coordinator::moves(const PlanNumber& plan) const {
+  const auto slices = plans_.slices(plan);
+  return std::any_of(slices.begin(), slices.end(), [](const auto& slice) { return mechanics::moves(slice); });
+}
+
 bool Coordinator::moving() const {
-  const auto moves_anyone = [this](const PlanNumber& number) {
-    const auto slices = plans_.slices(number);
-    return std::any_of(slices.begin(), slices.end(), [](const auto& slice) { return mechanics::moves(slice); });
-  };
   const auto numbers = protocol::plans_of(course_);
-  return std::any_of(numbers.begin(), numbers.end(), moves_anyone);
+  return std::any_of(numbers.begin(), numbers.end(), [this](const PlanNumber& plan) { return moves(plan); });
 }
 
 /// Room for one more and for turning it back.
@@ -65,7 +66,17 @@ std::vector<CarrierId> Coordinator::unconfirmed(LocalTime now) const {
   const std::uint64_t id = agreement_->transition().id;
   const auto confirmed = [&](const protocol::AgentStatus& s) { return s.term == term_ && s.confirmed >= id; };
   // A lost agent cannot be asked. Whether to fly on without it was decided by the mission's policy, or by a person.
-  return without(fleet_.missing(now, confirmed), lost(now));
+  // Nor can one be that does not know the plan in force: it follows when the transition is complete.
+  return without(without(fleet_.missing(now, confirmed), lost(now)), without_base(now));
+}
+
+/// Whom this coordinator hears of and cannot tell the plan in force.
+std::vector<CarrierId> Coordinator::without_base(LocalTime now) const {
+  std::vector<CarrierId> out;
+  for (const CarrierId id : carriers_) {
+    if (!fleet_.silent(now, id) && plans_.slice(course_.base.number, id) == nullptr) out.push_back(id);
+  }
+  return out;
 }
 
 std::optional<std::string> Coordinator::refusal_of(const PlanNumber& plan) const {
@@ -86,6 +97,10 @@ Duration Coordinator::skew_budget(const PlanNumber& plan) const {
 std::optional<std::string> Coordinator::obstacle(LocalTime now, const PlanNumber& to) const {
   if (const auto refusal = refusal_of(to)) return "refused: " + *refusal;
   if (!room_for_transition()) return "too many transitions are under way; wait until they are complete";
+  const std::vector<CarrierId> gone = lost(now);
+  if (!gone.empty() && job_.on_agent_loss == AgentLoss::kFreeze && moves(to)) {
+    return list(gone) + (gone.size() == 1 ? " is" : " are") + " lost, and the mission flies with all or not at all";
+  }
   const Duration budget = skew_budget(to);
   if (budget > Duration::zero() && skew(now) > budget) {
     return text("the clocks may disagree by %.3g ms, the plan allows %.3g ms", 1e3 * seconds(skew(now)),
@@ -106,11 +121,22 @@ Intent Coordinator::intent_to(const PlanNumber& to, std::optional<std::uint64_t>
 // ---------------------------------------------------------------------------------------------------------- wanting
 
 void Coordinator::drive(LocalTime now, Outputs& out) {
+  if (lost(now).empty()) frozen_for_loss_ = false;
   if (agreement_) return pursue(now, out);
   if (now < retry_at_ || !room_for_transition()) return;
 
+  const std::vector<CarrierId> baseless = without_base(now);
+  if (!baseless.empty() && now - term_since_ > options_.listening && destination() != rest_) {
+    // What it knew of it died with a coordinator and an agent; all there is to offer is another plan.
+    tell(out, Notice::Level::kError, "nobody knows the plan in force for " + list(baseless) + ": going to rest");
+    Intent intent = intent_to(rest_, std::nullopt);
+    intent.rehearsed = false;
+    return begin(now, intent);
+  }
   const std::vector<CarrierId> gone = lost(now);
-  if (!gone.empty() && !frozen_for_loss_ && moving() && job_.on_agent_loss == AgentLoss::kFreeze && !shutting_down_) {
+  // Whoever hears nobody is cut off itself: nobody would hear of a freeze in time, and all would jump to it later.
+  const bool some_gone = !gone.empty() && gone.size() < carriers_.size();
+  if (some_gone && !frozen_for_loss_ && moving() && job_.on_agent_loss == AgentLoss::kFreeze && !shutting_down_) {
     tell(out, Notice::Level::kError, "lost " + list(gone) + ": freezing where it stopped");
     engage_ = false;
     frozen_for_loss_ = true;
@@ -123,7 +149,9 @@ void Coordinator::drive(LocalTime now, Outputs& out) {
     } else if (release_failures_ >= options_.release_attempts) {
       out.finished = Outcome{false, "the flight could not be brought to rest: agents do not answer"};
     } else if (destination() != rest_ && moving()) {
-      begin(now, intent_to(rest_, std::nullopt));
+      Intent intent = intent_to(rest_, std::nullopt);
+      intent.may_slow_down = true;  // a flight must be able to end, however short its transitions were meant to be
+      begin(now, intent);
     }
     return;
   }
@@ -179,7 +207,17 @@ void Coordinator::pursue(LocalTime now, Outputs& out) {
     }
     agreement_->rehearse(Rehearsal(std::move(stacks), job_.plan.limits));
   };
-  if (agreement_->needs_rehearsal()) rehearse();
+  const std::vector<CarrierId> gone = lost(now);
+  if (!gone.empty() && job_.on_agent_loss == AgentLoss::kFreeze && moves(agreement_->intent().to)) {
+    return give_up(now, "lost " + list(gone), out);
+  }
+  if (agreement_->needs_rehearsal()) {
+    const auto knows_base = [this](CarrierId id) { return plans_.slice(course_.base.number, id) != nullptr; };
+    if (std::none_of(carriers_.begin(), carriers_.end(), knows_base)) {
+      return give_up(now, "no agent has told yet what it flies", out);
+    }
+    rehearse();
+  }
   const bool was_proposed = agreement_->proposed();
   switch (agreement_->step(swarm_time(now), was_proposed ? unconfirmed(now) : std::vector<CarrierId>{})) {
     case Agreement::Step::kWait:
@@ -190,14 +228,13 @@ void Coordinator::pursue(LocalTime now, Outputs& out) {
     case Agreement::Step::kPropose:
       course_.transitions.push_back(agreement_->transition());
       ++course_.revision;
-      plans_.keep(plans_in_use());
       offer_plans(out);
       break;
     case Agreement::Step::kGo:
       go(out);
       break;
     case Agreement::Step::kGiveUp:
-      give_up(now, out);
+      give_up(now, agreement_->why(), out);
       break;
   }
 }
@@ -214,10 +251,20 @@ void Coordinator::go(Outputs& out) {
   if (agreement_->intent().rehearsed) starting_ = t.id;
   if (t.to.number == motion_) engage_ = false;
   release_failures_ = 0;
+  before_retune_.reset();
   agreement_.reset();
+  plans_.keep(plans_in_use());
 }
 
-void Coordinator::give_up(LocalTime now, Outputs& out) {
+void Coordinator::undo_retune() {
+  if (!before_retune_) return;
+  job_ = before_retune_->job;
+  rest_ = before_retune_->rest;
+  motion_ = before_retune_->motion;
+  before_retune_.reset();
+}
+
+void Coordinator::give_up(LocalTime now, const std::string& why, Outputs& out) {
   const Agreement& agreement = *agreement_;
   if (agreement.proposed()) {
     course_.transitions.pop_back();
@@ -225,11 +272,12 @@ void Coordinator::give_up(LocalTime now, Outputs& out) {
   }
   const auto refusal = refusal_of(agreement.intent().to);
   const std::string told = text("transition to the %s plan given up: %s", plans_.name(agreement.intent().to),
-                                refusal ? ("refused: " + *refusal).c_str() : agreement.why().c_str());
+                                refusal ? ("refused: " + *refusal).c_str() : why.c_str());
   tell(out, Notice::Level::kWarning, told);
   if (agreement.intent().command) answer(*agreement.intent().command, false, told, out);
   if (shutting_down_) ++release_failures_;
   if (!agreement.intent().rehearsed) frozen_for_loss_ = false;  // try again: the load is still not held
+  undo_retune();
   retry_at_ = now + options_.agreement.lead;
   agreement_.reset();
   plans_.keep(plans_in_use());
@@ -238,8 +286,8 @@ void Coordinator::give_up(LocalTime now, Outputs& out) {
 
 void Coordinator::check_start(LocalTime now, Outputs& out) {
   if (!starting_) return;
-  const auto found = std::find_if(course_.transitions.begin(), course_.transitions.end(),
-                                  [this](const Transition& t) { return t.id == *starting_; });
+  const auto is_starting = [id = *starting_](const Transition& t) { return t.id == id; };
+  auto found = std::find_if(course_.transitions.begin(), course_.transitions.end(), is_starting);
   if (found == course_.transitions.end()) {
     starting_.reset();
     return;
@@ -247,6 +295,7 @@ void Coordinator::check_start(LocalTime now, Outputs& out) {
   if (swarm_time(now) < found->start + options_.start_check) return;
   const auto follows = [&](const protocol::AgentStatus& s) {
     const auto& theirs = s.course.transitions;
+    if (s.term != term_) return false;
     return s.course.base.number == found->to.number ||
            std::any_of(theirs.begin(), theirs.end(),
                        [&](const Transition& t) { return t.id == found->id && t.stage == Stage::kGo; });
@@ -256,6 +305,10 @@ void Coordinator::check_start(LocalTime now, Outputs& out) {
   if (missing.empty() || shutting_down_) return;
   tell(out, Notice::Level::kWarning,
        list(missing) + (missing.size() == 1 ? " does" : " do") + " not follow the transition that began: turning back");
+  if (agreement_) {  // it was to lie on what is turned back now
+    give_up(now, "the transition before it is turned back", out);
+    found = std::find_if(course_.transitions.begin(), course_.transitions.end(), is_starting);
+  }
   // The plan below is known to everybody: no need to ask. Who never began stays where the turn leads.
   const auto index = static_cast<std::size_t>(found - course_.transitions.begin());
   Transition back;

@@ -14,6 +14,8 @@ Fleet::Verdict Fleet::take(LocalTime now, const protocol::AgentStatus& status) {
     if (status.sequence == member.status->sequence) return Verdict::kDuplicate;
     if (status.sequence < member.status->sequence) return Verdict::kLate;
   } else if (member.status) {
+    if (status.incarnation == member.former) return Verdict::kLate;  // the dead confirm nothing
+    member.former = member.status->incarnation;
     member.restarted = true;
   }
   member.status = status;

@@ -48,6 +48,7 @@ class Fleet {
     explicit Member(Duration timeout) : liveness(timeout) {}
     protocol::Liveness liveness;
     std::optional<protocol::AgentStatus> status;
+    std::optional<std::uint64_t> former;  ///< incarnation before this one
     bool known_present = false;
     bool restarted = false;
   };

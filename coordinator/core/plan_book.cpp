@@ -22,6 +22,11 @@ void PlanBook::learn(const PlanNumber& number, Slices slices) {
   plans_[number] = {std::move(slices), "former"};
 }
 
+bool PlanBook::complete(CarrierId carrier, const protocol::NumberedSlice& numbered) {
+  const auto plan = plans_.find(numbered.number);
+  return plan != plans_.end() && plan->second.slices.emplace(carrier, numbered.slice).second;
+}
+
 std::optional<PlanNumber> PlanBook::recognise(const Slices& slices, const std::string& name) {
   for (auto& [number, entry] : plans_) {
     const auto same = [&slices](const auto& known) {

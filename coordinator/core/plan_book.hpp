@@ -21,6 +21,8 @@ class PlanBook {
   protocol::PlanNumber add(std::uint64_t term, Slices slices, const std::string& name);
   /// A plan learned back from the agents, under the number they know it by.
   void learn(const protocol::PlanNumber& number, Slices slices);
+  /// What a known plan lacked for this carrier; true if it did.
+  bool complete(CarrierId carrier, const protocol::NumberedSlice& numbered);
   /// The number of a learned plan that is this one, carrier by carrier; it takes the name, and what it lacked.
   [[nodiscard]] std::optional<protocol::PlanNumber> recognise(const Slices& slices, const std::string& name);
 

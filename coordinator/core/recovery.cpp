@@ -16,7 +16,11 @@ void Recovery::take(LocalTime arrived, const protocol::AgentStatus& status) {
   for (const Transition& t : status.course.transitions) last_transition_ = std::max(last_transition_, t.id);
 
   const Duration offset = status.swarm_time.time_since_epoch() - arrived.time_since_epoch();
-  swarm_offset_ = swarm_offset_ ? std::max(*swarm_offset_, offset) : offset;
+  const Duration proven = offset - std::min(status.clock_uncertainty, kLongest);
+  if (!proven_offset_ || proven > *proven_offset_) {
+    proven_offset_ = proven;
+    swarm_offset_ = offset;
+  }
 
   const bool newer = !course_ || status.term > course_term_ ||
                      (status.term == course_term_ && status.course.revision > course_->revision);

@@ -5,8 +5,8 @@
 // time. So nothing has to be written to a disk, and no disk can be stale. The newest course any agent holds is the
 // course; proposals in it are dropped, because nobody may have been told to go.
 //
-// Swarm time: an agent's estimate left it before it arrived here, so every status shows swarm time as at least that
-// late; the greatest of (swarm time sent − local time arrived) is the least delayed, and the best.
+// Swarm time: an agent's estimate left it before it arrived here, so every status proves that swarm time is at least
+// its estimate less its uncertainty. The one that proves most is the best: little delayed, and by a clock that is sure.
 
 #include <map>
 #include <optional>
@@ -36,6 +36,7 @@ class Recovery {
   std::uint64_t course_term_ = 0;
   std::optional<protocol::Course> course_;
   std::optional<Duration> swarm_offset_;
+  std::optional<Duration> proven_offset_;  ///< that offset less its uncertainty
   std::uint64_t last_transition_ = 0;
   std::map<protocol::PlanNumber, Slices> plans_;
 };

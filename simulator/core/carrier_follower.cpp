@@ -13,10 +13,10 @@ CarrierFollower::CarrierFollower(const Eigen::Vector3d& rest_position_w_m, std::
   target_.position_w_m = rest_position_w_m;
 }
 
-void CarrierFollower::command(const CarrierTarget& target, double arrived_s, double now_s) {
+void CarrierFollower::command(const CarrierTarget& target, double held_s, double now_s) {
   const Eigen::Vector3d place = at(now_s).position_w_m;
   target_ = target;
-  target_since_s_ = arrived_s;
+  target_since_s_ = held_s;
   error_w_m_ = asked(now_s).position_w_m - place;
   error_since_s_ = now_s;
 }

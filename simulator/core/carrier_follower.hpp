@@ -31,8 +31,8 @@ class CarrierFollower {
   /// Rests there until the first command. An absent lag means exact.
   CarrierFollower(const Eigen::Vector3d& rest_position_w_m, std::optional<double> lag_s);
 
-  /// From `now` on follows a target that held at `arrived` <= now.
-  void command(const CarrierTarget& target, double arrived_s, double now_s);
+  /// From `now` on follows a target that held at `held` <= now.
+  void command(const CarrierTarget& target, double held_s, double now_s);
 
   /// At any time since the last command.
   [[nodiscard]] CarrierMotion at(double t_s) const;

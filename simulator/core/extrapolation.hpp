@@ -1,7 +1,7 @@
 #pragma once
 // What a setpoint means until the next one comes, and what it means when none comes.
 //
-//   τ = time since the setpoint arrived, H = kExtrapolationHorizon_s, T = kStoppingTime_s, w = quintic smooth step
+//   τ = time since the setpoint held, H = kExtrapolationHorizon_s, T = kStoppingTime_s, w = quintic smooth step
 //
 //   τ <= H           x = x0 + v0 τ + ½ a0 τ²                    as the setpoint says
 //   H < τ < H + T    x' = (v0 + a0 H) (1 − w((τ − H) / T))      slows down, along the last direction

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "simulator/core/age_judge.hpp"
 #include "simulator/core/extrapolation.hpp"
 
 namespace gyre::simulator {
@@ -33,6 +34,9 @@ std::optional<std::string> SetpointJudge::objection(const protocol::Setpoint& se
 std::optional<std::string> SetpointJudge::nonsense(const protocol::Setpoint& s) const {
   const std::string who = "setpoint for carrier " + std::to_string(s.carrier) + ": ";
   if (last_.count(s.carrier) == 0) return who + "the mission has no such carrier";
+  if (s.swarm_time.time_since_epoch() > kLongestStamp || s.swarm_time.time_since_epoch() < -kLongestStamp) {
+    return who + "stamped with a time that no swarm's clock shows";
+  }
   const bool finite = s.position_w_m.allFinite() && s.velocity_w_m_s.allFinite() && s.acceleration_w_m_s2.allFinite() &&
                       std::isfinite(s.winch_length_m) && std::isfinite(s.winch_rate_m_s) &&
                       std::isfinite(s.winch_acceleration_m_s2);

@@ -8,12 +8,14 @@
 #include "common/base/ensure.hpp"
 #include "common/mechanics/reference.hpp"
 #include "common/mechanics/rest_plan.hpp"
+#include "simulator/core/age_judge.hpp"
 
 namespace gyre::simulator {
 namespace {
 
 struct WaitingSetpoint {
   LocalTime arrived;
+  LocalTime held;  // when what it says was true
   protocol::Setpoint setpoint;
 };
 
@@ -21,6 +23,7 @@ struct Vehicle {
   CarrierId id = 0;
   CarrierFollower follower;
   Winch winch;
+  AgeJudge ages;
 
   [[nodiscard]] Anchor anchor(double t_s) const {
     const CarrierMotion carrier = follower.at(t_s);
@@ -95,7 +98,8 @@ struct Simulator::World {
         latest_objection = "more setpoints than the simulator can take up";
         unreported_drops = true;
       }
-      waiting.push_back({arrived, setpoint});
+      const Duration age = vehicles[index.at(setpoint.carrier)].ages.age(setpoint.swarm_time, arrived);
+      waiting.push_back({arrived, arrived - age, setpoint});
     }
     report_drops(arrived, out);
   }
@@ -157,10 +161,10 @@ struct Simulator::World {
 
   void take_up(const WaitingSetpoint& waited, double now_s) {
     const protocol::Setpoint& s = waited.setpoint;
-    const double arrived_s = seconds(waited.arrived - start);
+    const double held_s = seconds(waited.held - start);
     Vehicle& vehicle = vehicles[index.at(s.carrier)];
-    vehicle.follower.command({s.position_w_m, s.velocity_w_m_s, s.acceleration_w_m_s2}, arrived_s, now_s);
-    vehicle.winch.command({s.winch_length_m, s.winch_rate_m_s, s.winch_acceleration_m_s2}, arrived_s);
+    vehicle.follower.command({s.position_w_m, s.velocity_w_m_s, s.acceleration_w_m_s2}, held_s, now_s);
+    vehicle.winch.command({s.winch_length_m, s.winch_rate_m_s, s.winch_acceleration_m_s2}, held_s);
   }
 
   void publish(Outputs& out) {
@@ -210,9 +214,10 @@ Result<Simulator> Simulator::create(const mechanics::Plan& plan, const Simulatio
                    std::to_string(rest.length_m.value) + " m long under " + std::to_string(rest.tension_n.value) +
                    " N, which is no cable to simulate; look at its length law, and at cable.stiffness_n_m"};
     }
-    vehicles.push_back({slice.id, CarrierFollower(rest.position_w_m.value, settings.carrier_lag_s),
-                        Winch(unstretched_m, {settings.winch_time_constant_s, settings.winch_rate_limit_m_s,
-                                              seconds(settings.tick)})});
+    vehicles.push_back(
+        {slice.id, CarrierFollower(rest.position_w_m.value, settings.carrier_lag_s),
+         Winch(unstretched_m, {settings.winch_time_constant_s, settings.winch_rate_limit_m_s, seconds(settings.tick)}),
+         AgeJudge()});
     longest_rest_m = std::max(longest_rest_m, (rest.position_w_m.value - plan.load.position_w_m).norm());
   }
   return Simulator(std::make_unique<World>(plan, settings, start, std::move(vehicles), longest_rest_m));

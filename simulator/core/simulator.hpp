@@ -2,8 +2,9 @@
 // The physical twin as a machine without clock or wire: told what arrived and what time it is, it says what to publish.
 //
 // Intuition: the world is simulated after the fact. A setpoint waits with the time it arrived until the simulated time
-// gets there and takes effect at the first tick not before it, extrapolated from its arrival; so how often step() is
-// called changes nothing of the motion, and a main loop may sleep from one publication to the next.
+// gets there and takes effect at the first tick not before it, extrapolated from the moment it held for
+// (age_judge.hpp); so how often step() is called changes nothing of the motion, and a main loop may sleep from one
+// publication to the next.
 //
 //   step(arrived, setpoint)    judged (setpoint_judge.hpp), then kept until its time
 //   step(now, Advance{})       integrates to the last tick not after now, at most kTicksPerAdvance of them

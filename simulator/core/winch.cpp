@@ -15,9 +15,9 @@ Winch::Winch(double rest_length_m, const WinchSettings& settings)
   begin_.length_m = rest_length_m;
 }
 
-void Winch::command(const WinchTarget& target, double arrived_s) {
+void Winch::command(const WinchTarget& target, double held_s) {
   target_ = target;
-  target_since_s_ = arrived_s;
+  target_since_s_ = held_s;
 }
 
 void Winch::tick(double now_s) {

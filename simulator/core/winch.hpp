@@ -37,7 +37,7 @@ class Winch {
  public:
   Winch(double rest_length_m, const WinchSettings& settings);
 
-  void command(const WinchTarget& target, double arrived_s);
+  void command(const WinchTarget& target, double held_s);
 
   /// Decides the motion from `now` until the next tick; once per tick, in order.
   void tick(double now_s);

@@ -242,7 +242,8 @@ void Checkers::instant(TrueTime now) {
     for (const Agent& b : agents_) half_applied = std::max(half_applied, difference(a.flown, b.flown, m.swarm));
   }
   extremes_.half_applied = std::max(extremes_.half_applied, half_applied);
-  if (m.at > calm_from_) {
+  calm_ = calm_ || (m.at > calm_from_ && half_applied < 1e-6);
+  if (calm_) {
     extremes_.half_applied_in_calm = std::max(extremes_.half_applied_in_calm, half_applied);
     if (half_applied > half_applied_bound(duration_s) + 1e-3) {
       report(Finding::Kind::kSafety, now, "half applied",

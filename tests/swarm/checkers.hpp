@@ -55,7 +55,10 @@ class Checkers {
   void begins(std::size_t agent);
   void ends(std::size_t agent);
   /// Somebody died, hung, was cut off, or the weather is bad: the bounds that hold in calm do not for a while.
-  void disturbed(TrueTime until) { calm_from_ = std::max(calm_from_, until); }
+  void disturbed(TrueTime until) {
+    calm_ = false;
+    calm_from_ = std::max(calm_from_, until);
+  }
   void lies_told() { lies_ = true; }
   /// All that lives is looked at together.
   void instant(TrueTime now);
@@ -96,6 +99,7 @@ class Checkers {
   double acceleration_m_s2_ = 0.0;
   double shortest_transition_s_ = 1.0;
   TrueTime calm_from_{};
+  bool calm_ = false;  ///< all have flown the same since the last disturbance: from then on they have to
   bool lies_ = false;
   bool merging_now_ = false;
   std::optional<Duration> disagreement_;

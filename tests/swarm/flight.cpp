@@ -33,6 +33,7 @@ void find_together(Swarm& swarm, FlightReport& report) {
 void come_to_rest(Swarm& swarm) {
   swarm.shut_down();
   const bool ended = fly_until(swarm, kRestWithin, [&] { return swarm.coordinators_alive() == 0; });
+  swarm.run_until(swarm.now() + kGlance);  // the agents' clocks get there a little later
   const auto outcome = swarm.last_outcome();
   if (!ended) {
     swarm.checkers().report(Finding::Kind::kLiveness, swarm.now(), "rest",

@@ -17,10 +17,10 @@ constexpr Duration kDiscovery = std::chrono::milliseconds(200);
 /// A reader asks again for what it knows to have missed (INTEROP, heartbeat period 20 to 50 ms).
 constexpr Duration kHeartbeat = std::chrono::milliseconds(35);
 /// After a fault ends, the bounds that hold in calm hold again.
-constexpr Duration kAftermath = std::chrono::seconds(6);
+constexpr Duration kAftermath = std::chrono::seconds(1);
 constexpr Duration kSupervisor = std::chrono::seconds(1);
-/// More never waits at a process that does not read: the middleware keeps the newest few of each topic.
-constexpr std::size_t kInbox = 64;
+/// More never waits of one topic at a process that does not read: the middleware keeps the newest few.
+constexpr std::ptrdiff_t kWaitingOfOneKind = 4;
 
 struct LaterFirst {
   template <class H>
@@ -305,7 +305,12 @@ void Swarm::wake(std::size_t process) {
 void Swarm::arrive(std::size_t process, const Message& message) {
   Process& p = processes_[process];
   if (now_ >= p.held_until) return hand_over(process, message, local(process));
-  if (p.inbox.size() == kInbox) p.inbox.pop_front();
+  const auto same = [&message](const Process::Waiting& w) {
+    return w.message->content.index() == message.content.index();
+  };
+  if (std::count_if(p.inbox.begin(), p.inbox.end(), same) >= kWaitingOfOneKind) {
+    p.inbox.erase(std::find_if(p.inbox.begin(), p.inbox.end(), same));
+  }
   p.inbox.push_back({std::make_shared<const Message>(message), local(process)});
 }
 
@@ -520,6 +525,9 @@ bool Swarm::agrees(Duration clock_bound, std::string* why) const {
   const auto disagreement = checkers_.disagreement();
   if (!disagreement) return no("not every agent flies");
   if (*disagreement > clock_bound) return no(text("the clocks differ by %.3g ms", 1e3 * seconds(*disagreement)));
+  for (const Process& p : processes_) {
+    if (p.running() && now_ < p.held_until) return no("somebody still hangs");
+  }
   const coordinator::Coordinator& leader = *coordinator();
   for (std::size_t p = kCoordinators; p < processes_.size(); ++p) {
     const protocol::Course& course = processes_[p].agent->course();

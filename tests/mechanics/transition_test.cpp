@@ -175,41 +175,39 @@ RC_GTEST_PROP(Mixture, lengths_follow_each_law_on_the_mixed_direction, ()) {
 // -------------------------------------------------------------------------------------------------------- enclosures
 
 void check_figures(const Stack& stack, double begin_s, double end_s) {
-  for (std::size_t i = 0; i < stack.carriers(); ++i) {
-    const std::vector<TimedLayer> layers = stack.layers(i);
-    const CarrierFigures claim = transition_figures(layers, begin_s, end_s);
-    Track tension, length, winch_rate, speed, acceleration, altitude, vertical;
-    double grip = 1.0;  // of the laws that project, on the mixed direction
-    sample(begin_s, end_s, 2000, [&](double t_s) {
-      const Reference r = at(layers, t_s);
-      tension.add(r.tension_n.value);
-      length.add(r.length_m.value);
-      winch_rate.add(r.length_m.first);
-      speed.add(r.position_w_m.first.norm());
-      acceleration.add(r.position_w_m.second.norm());
-      altitude.add(r.position_w_m.value.z());
-      vertical.add(r.direction_w.value.z());
-      for (const TimedLayer& layer : layers) {
-        const LengthLaw& law = layer.slice->law;
-        if (law.is_projection()) grip = std::min(grip, law.direction.dot(r.direction_w.value));
-      }
-    });
-    // A mixed direction may lose the grip that each plan has: lengths run away there, and claims may be loose, or
-    // infinite, but never wrong.
-    const double loose = grip < 0.5 ? std::numeric_limits<double>::infinity() : 0.0;
-    const auto check = [loose](const Track& track, const Range& range, double slack) {
-      check_holds(track, range, 1.001 * slack + loose);
-    };
-    check(tension, claim.tension_n, kTransitionSlack * tension.size());
-    check(length, claim.length_m, kTransitionSlack * length.size());
-    check(winch_rate, claim.winch_rate_m_s, kTransitionSlack * std::max(winch_rate.size(), speed.size()));
-    check(speed, claim.speed_m_s, kTransitionSlack * speed.size());
-    // Safe always; how tight depends on how wildly random plans are mixed (see the paper's engagement below).
-    check_holds(acceleration, {acceleration.range().min, claim.acceleration_max_m_s2},
-                std::numeric_limits<double>::infinity());
-    check(altitude, claim.altitude_m, kTransitionSlack * std::max(altitude.size(), length.size()));
-    check(vertical, claim.vertical_cosine, kTransitionSlack * vertical.size());
-  }
+  const std::vector<TimedLayer> layers = stack.layers(whole(0, stack.carriers() - 1));
+  const CarrierFigures claim = transition_figures(layers, begin_s, end_s);
+  Track tension, length, winch_rate, speed, acceleration, altitude, vertical;
+  double grip = 1.0;  // of the laws that project, on the mixed direction
+  sample(begin_s, end_s, 2000, [&](double t_s) {
+    const Reference r = at(layers, t_s);
+    tension.add(r.tension_n.value);
+    length.add(r.length_m.value);
+    winch_rate.add(r.length_m.first);
+    speed.add(r.position_w_m.first.norm());
+    acceleration.add(r.position_w_m.second.norm());
+    altitude.add(r.position_w_m.value.z());
+    vertical.add(r.direction_w.value.z());
+    for (const TimedLayer& layer : layers) {
+      const LengthLaw& law = layer.slice->law;
+      if (law.is_projection()) grip = std::min(grip, law.direction.dot(r.direction_w.value));
+    }
+  });
+  // A mixed direction may lose the grip that each plan has: lengths run away there, and claims may be loose, or
+  // infinite, but never wrong.
+  const double loose = grip < 0.5 ? std::numeric_limits<double>::infinity() : 0.0;
+  const auto check = [loose](const Track& track, const Range& range, double slack) {
+    check_holds(track, range, 1.001 * slack + loose);
+  };
+  check(tension, claim.tension_n, kTransitionSlack * tension.size());
+  check(length, claim.length_m, kTransitionSlack * length.size());
+  check(winch_rate, claim.winch_rate_m_s, kTransitionSlack * std::max(winch_rate.size(), speed.size()));
+  check(speed, claim.speed_m_s, kTransitionSlack * speed.size());
+  // Safe always; how tight depends on how wildly random plans are mixed (see the paper's engagement below).
+  check_holds(acceleration, {acceleration.range().min, claim.acceleration_max_m_s2},
+              std::numeric_limits<double>::infinity());
+  check(altitude, claim.altitude_m, kTransitionSlack * std::max(altitude.size(), length.size()));
+  check(vertical, claim.vertical_cosine, kTransitionSlack * vertical.size());
 }
 
 RC_GTEST_PROP(TransitionFigures, they_hold_every_sample_and_are_tight, ()) {

@@ -92,7 +92,9 @@ fast::api::DomainParticipantQos star(const NodeOptions& options, int participant
     builtin.initialPeersList.push_back(fast::udp_locator(options.interface));
     for (const std::string& peer : options.peers) builtin.initialPeersList.push_back(fast::udp_locator(peer));
   }
-  builtin.discovery_config.leaseDuration = fast::Time(2, 0);
+  // Silence is judged in the cores; a lease that runs out only unmatches, and matching anew is slow where packets are
+  // lost. So it outlasts forty lost announcements, and a radio that is out for less costs nothing when it is back.
+  builtin.discovery_config.leaseDuration = fast::Time(20, 0);
   builtin.discovery_config.leaseDuration_announcementperiod = fast::Time(0, 500'000'000);
   builtin.discovery_config.initial_announcements.count = 20;
   qos.wire_protocol().participant_id = participant;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "common/mission/mission.hpp"
-#include "ground/child_process.hpp"
+#include "ground/flight/child_process.hpp"
 #include "tests/processes/flight_observer.hpp"
 
 namespace gyre::test {

@@ -39,7 +39,10 @@ std::string ruleset(int percent, const std::vector<std::uint16_t>& spared) {
     for (const std::uint16_t port : spared) ports += (ports.empty() ? "" : ", ") + std::to_string(port);
     rules += " udp sport { " + ports + " } accept; udp dport { " + ports + " } accept;";
   }
-  rules += " meta l4proto udp numgen random mod 100 < " + std::to_string(percent) + " counter drop;";
+  // "below 100 of 100" is refused as a comparison that is always true.
+  rules += " meta l4proto udp";
+  if (percent < 100) rules += " numgen random mod 100 < " + std::to_string(percent);
+  rules += " counter drop;";
   return "add table inet faults; delete table inet faults; "
          "table inet faults { chain input { type filter hook input priority 0;" +
          rules + " }; }";

@@ -25,7 +25,7 @@ bool sane(Duration d) {
   return d >= -kLongest && d <= kLongest;
 }
 bool sane(SwarmTime t) {
-  return sane(t.time_since_epoch());
+  return usable(t);
 }
 bool sane(CarrierId id) {
   return id >= 1 && id <= kMaxCarrierId;
@@ -36,6 +36,7 @@ bool sane(const Course& course) {
   for (const Transition& t : course.transitions) {
     if (t.to.number.none() || !sane(t.to.epoch) || !sane(t.start) || !sane(t.duration)) return false;
     if (t.duration <= Duration::zero()) return false;
+    if (t.stage != Stage::kProposed && t.stage != Stage::kGo) return false;
   }
   return true;
 }
@@ -74,7 +75,8 @@ bool sane(const PlanOffer& offer) {
 
 bool sane(const AgentStatus& status) {
   return sane(status.carrier) && sane(status.swarm_time) && status.clock_uncertainty >= Duration::zero() &&
-         sane(status.clock_drift_ppm) && sane(status.course) && status.accepted.size() <= kMaxPlans;
+         status.state >= AgentState::kWaiting && status.state <= AgentState::kAlone && sane(status.clock_drift_ppm) &&
+         sane(status.course) && status.accepted.size() <= kMaxPlans;
 }
 
 bool sane(const Setpoint& s) {

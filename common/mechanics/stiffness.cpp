@@ -53,8 +53,8 @@ double least_stiffness(const Plan& plan, const std::vector<CarrierSlice>& slices
   Range range;
   for (int i = 0; i < samples; ++i) range.include(grid.emplace_back(eigenvalue(step * i)));
 
-  // Every valley of the grid that is nearly as deep as the deepest may hold the least.
-  const double nearly = range.min + 0.1 * range.span();
+  // Every valley of the grid that is at least half as deep as the deepest may hold the least.
+  const double nearly = range.min + 0.5 * range.span();
   const bool flat = range.span() <= 1e-9 * std::abs(range.max);
   for (int i = 0; i < samples && !flat; ++i) {
     const auto at = [&grid, samples](int k) { return grid[static_cast<std::size_t>((k + samples) % samples)]; };

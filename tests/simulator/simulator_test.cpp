@@ -6,9 +6,11 @@
 
 #include <array>
 #include <limits>
+#include <map>
 
-#include "common/mechanics/transition.hpp"
+#include "common/base/random_stream.hpp"
 #include "common/mechanics/rest_plan.hpp"
+#include "common/mechanics/transition.hpp"
 #include "tests/simulator/rigs.hpp"
 
 namespace gyre::simulator {
@@ -110,6 +112,38 @@ TEST(Simulator, FliesThePaperWithTheLoadHangingStill) {
     EXPECT_LT(furthest_m, 1e-4);
     EXPECT_GT(fastest_m_s, 0.05) << "the carriers have to have flown";
   }
+}
+
+/// How far the load goes in a flight whose setpoints arrive up to `lateness` late, and in which the first carrier's
+/// clock is ahead of the swarm's by `skew`.
+double furthest_m(Duration lateness, Duration skew) {
+  const Agents agents(rigs::paper());
+  RandomStream random(3, "lateness");
+  Simulator simulator = make();
+  double furthest = 0.0;
+  for (Duration t{}; t < std::chrono::seconds(40); t += milliseconds(10)) {
+    std::multimap<LocalTime, protocol::Setpoint> arrivals;
+    for (std::size_t i = 0; i < agents.count(); ++i) {
+      const Duration late = from_seconds(random.uniform() * seconds(lateness));
+      arrivals.emplace(kStart + t + late, agents.setpoint(i, i == 0 ? t + skew : t));
+    }
+    for (const auto& [arrived, setpoint] : arrivals) {
+      EXPECT_FALSE(simulator.step(arrived, setpoint).dropped);
+    }
+    static_cast<void>(simulator.step(kStart + t + milliseconds(10), Advance{}));
+    furthest = std::max(furthest, displacement_m(simulator));
+  }
+  return furthest;
+}
+
+TEST(Simulator, LateSetpointsMoveNothingBecauseTheyAreStamped) {
+  // Taken to hold at their arrival they would move it by 0.19 mm.
+  EXPECT_LT(furthest_m(milliseconds(9), {}), 5e-5);
+}
+
+TEST(Simulator, ACarrierWhoseClockIsWrongMovesTheLoadAllTheSame) {
+  const double late_m = furthest_m(milliseconds(9), {});
+  EXPECT_GT(furthest_m(milliseconds(9), milliseconds(100)), 20.0 * late_m);
 }
 
 TEST(Simulator, HowOftenItIsCalledChangesNothing) {

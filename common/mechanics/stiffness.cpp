@@ -47,18 +47,17 @@ double least_stiffness(const Plan& plan, const std::vector<CarrierSlice>& slices
   };
   constexpr double kTwoPi = 6.283185307179586;
   const double turns = std::clamp(period_s * std::abs(plan.cycle.rate_rad_s) / kTwoPi, 1.0, 16.0);
-  const auto samples = static_cast<int>(std::lround(128.0 * turns));
+  const auto samples = static_cast<int>(std::lround(256.0 * turns));
   const double step = period_s / samples;
   std::vector<double> grid;
   Range range;
   for (int i = 0; i < samples; ++i) range.include(grid.emplace_back(eigenvalue(step * i)));
 
-  // Every valley of the grid that is at least half as deep as the deepest may hold the least.
-  const double nearly = range.min + 0.5 * range.span();
+  // Any valley of the grid may hold the least: the deepest are the narrowest, and look shallow between two samples.
   const bool flat = range.span() <= 1e-9 * std::abs(range.max);
   for (int i = 0; i < samples && !flat; ++i) {
     const auto at = [&grid, samples](int k) { return grid[static_cast<std::size_t>((k + samples) % samples)]; };
-    if (at(i) > nearly || at(i) > at(i - 1) || at(i) > at(i + 1)) continue;
+    if (at(i) > at(i - 1) || at(i) > at(i + 1)) continue;
     constexpr int kBits = 26;
     range.include(boost::math::tools::brent_find_minima(eigenvalue, step * (i - 1), step * (i + 1), kBits).second);
   }

@@ -31,7 +31,7 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 /// Mass matrix (m I, R J_b R'), W.
 [[nodiscard]] Matrix6d load_inertia(const Load& load);
 
-/// The smallest generalised eigenvalue over one period [1/s²]: a grid, refined by Brent's method in its deep valleys.
+/// The smallest generalised eigenvalue over one period [1/s²]: a grid, refined by Brent's method in its valleys.
 /// Found numerically, not proven: a bound through the cables' k would be a thousand times too wide to be of use.
 [[nodiscard]] double least_stiffness(const Plan& plan, const std::vector<CarrierSlice>& slices, double period_s);
 

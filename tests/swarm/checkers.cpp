@@ -27,6 +27,9 @@ double internal_n(const mechanics::CarrierSlice& slice) {
          std::abs(slice.outgoing.amplitude_n);
 }
 
+/// A coordinator that recovers learns swarm time from messages: as late as they were, and as wrong as their senders.
+constexpr Duration kRecoveryError = std::chrono::milliseconds(5);
+
 /// No carrier is further from its attachment in any motion.
 double reach_m_of(const LoadWithMotions& load) {
   double reach_m = 0.0;
@@ -258,10 +261,11 @@ void Checkers::check_clocks(const Moment& m) {
   const auto [least, most] = std::minmax_element(m.clocks.begin(), m.clocks.end());
   disagreement_ = *most - *least;
   extremes_.disagreement_s = std::max(extremes_.disagreement_s, seconds(*disagreement_));
-  const Duration early = agents_[static_cast<std::size_t>(least - m.clocks.begin())].uncertainty;
-  const Duration late = agents_[static_cast<std::size_t>(most - m.clocks.begin())].uncertainty;
-  if (early == Duration::max() || late == Duration::max() || lies_) return;
-  const Duration claimed = early + late + std::chrono::microseconds(20);
+  const Agent& early = agents_[static_cast<std::size_t>(least - m.clocks.begin())];
+  const Agent& late = agents_[static_cast<std::size_t>(most - m.clocks.begin())];
+  if (early.uncertainty == Duration::max() || late.uncertainty == Duration::max() || lies_) return;
+  Duration claimed = early.uncertainty + late.uncertainty + std::chrono::microseconds(20);
+  if (early.term != late.term) claimed += kRecoveryError;
   if (*disagreement_ > claimed) {
     report(Finding::Kind::kSafety, m.at, "clocks",
            text("two agents' swarm times differ by %.4g ms and claim to by %.4g ms at most",

@@ -96,10 +96,10 @@ void set_in_motion(Plan& plan, Draw& draw) {
   }
 }
 
-/// What vehicles for these motions can do: twice of what each asks for.
+/// What vehicles for these motions can do: twice of what each asks for, and enough to merge within a minute.
 mechanics::Limits room_for(const std::vector<Plan>& motions) {
   mechanics::Limits limits;
-  double tension_n = 0.0, rate_m_s = 0.05, speed_m_s = 0.1, acceleration_m_s2 = 0.5;
+  double tension_n = 0.0, rate_m_s = 0.5, speed_m_s = 0.5, acceleration_m_s2 = 0.5;
   for (const Plan& plan : motions) {
     for (const mechanics::CarrierFigures& figures : mechanics::certify(plan).carriers) {
       tension_n = std::max(tension_n, figures.tension_n.max);
@@ -155,6 +155,12 @@ std::vector<LoadWithMotions> make_loads() {
 }
 
 }  // namespace
+
+Plan too_fast(const Plan& plan) {
+  Plan fast = plan;
+  fast.cycle.rate_rad_s *= 20.0;
+  return fast;
+}
 
 const std::vector<LoadWithMotions>& loads() {
   static const std::vector<LoadWithMotions> made = make_loads();

@@ -16,6 +16,9 @@ struct LoadWithMotions {
   [[nodiscard]] std::size_t size() const { return motions.front().carriers.size(); }
 };
 
+/// The same motion at a rate that no vehicle of this load can fly.
+[[nodiscard]] mechanics::Plan too_fast(const mechanics::Plan& plan);
+
 /// The paper's first; made once, the same in every run.
 [[nodiscard]] const std::vector<LoadWithMotions>& loads();
 

@@ -136,7 +136,7 @@ void Writer::order(double at_s) {
   } else if (kind == 3) {
     add(at_s, Deed::kCommand).command = CommandKind::kFreeze;
   } else {
-    add(at_s, Deed::kRetune).motion = pick(loads()[s_.load].motions.size());
+    add(at_s, Deed::kRetune).motion = pick(loads()[s_.load].motions.size() + 1);
   }
 }
 

@@ -26,7 +26,7 @@ enum class Deed {
   kSuspend,           ///< SIGSTOP of `process` for `length`: it neither runs nor reads its clock
   kStall,             ///< the main loop of `process` hangs for `length`; what arrives is stamped
   kCommand,           ///< from the ground
-  kRetune,            ///< to motion number `motion`
+  kRetune,            ///< to motion number `motion`; one past the last: to one that no vehicle can fly
   kHeal,
 };
 [[nodiscard]] const char* name(Deed deed);

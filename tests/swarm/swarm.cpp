@@ -18,6 +18,8 @@ constexpr Duration kDiscovery = std::chrono::milliseconds(200);
 constexpr Duration kHeartbeat = std::chrono::milliseconds(35);
 /// After a fault ends, the bounds that hold in calm hold again.
 constexpr Duration kAftermath = std::chrono::seconds(1);
+/// DESIGN section 3: an agent that falls silent is named within this time.
+constexpr Duration kNamedWithin = std::chrono::milliseconds(500);
 constexpr Duration kSupervisor = std::chrono::seconds(1);
 /// More never waits of one topic at a process that does not read: the middleware keeps the newest few.
 constexpr std::ptrdiff_t kWaitingOfOneKind = 4;
@@ -134,6 +136,7 @@ void Swarm::happen(const Happening& h) {
 }
 
 void Swarm::act(const Action& a) {
+  if (a.deed != Deed::kCommand && a.deed != Deed::kRetune) loss_.reset();  // from here on nobody promises anything
   say([&] { return "* " + describe(a); });
   switch (a.deed) {
     case Deed::kWeather:
@@ -145,7 +148,9 @@ void Swarm::act(const Action& a) {
       checkers_.disturbed(now_ + kAftermath);
       return;
     case Deed::kKill:
-      if (processes_[a.process].running()) kill(a.process);
+      if (!processes_[a.process].running()) return;
+      if (is_agent(a.process) && untroubled()) loss_ = Loss{a.process, now_};
+      kill(a.process);
       return;
     case Deed::kKillInTransition:
       kill_after_start_ = a.offset;
@@ -162,7 +167,7 @@ void Swarm::act(const Action& a) {
     case Deed::kCommand:
       return command(a.command);
     case Deed::kRetune: {
-      ++faults_.retunes;
+      ++(a.motion < load_.motions.size() ? faults_.retunes : faults_.unflyable);
       const auto message =
           std::make_shared<const Message>(Message{coordinator::Retune{++commands_sent_, job(a.motion)}});
       for (std::size_t c = 0; c < kCoordinators; ++c) {
@@ -191,6 +196,7 @@ void Swarm::observe() {
                    !network_.groups.empty() || coordinators_alive() != 1;
   if (bad) checkers_.disturbed(now_ + kAftermath);
   checkers_.instant(now_);
+  watch_losses();
 }
 
 // --------------------------------------------------------------------------------------------------- life and death
@@ -203,7 +209,7 @@ LocalTime Swarm::local(std::size_t process) {
 coordinator::Job Swarm::job(std::size_t motion) const {
   coordinator::Job job;
   job.name = text("motion %zu", motion);
-  job.plan = load_.motions[motion];
+  job.plan = motion < load_.motions.size() ? load_.motions[motion] : too_fast(load_.motions.front());
   if (!scenario_.rehearse) job.transition = scenario_.transition;  // a rehearsal chooses the duration itself
   job.on_agent_loss = scenario_.on_agent_loss;
   return job;
@@ -469,10 +475,27 @@ void Swarm::perform(std::size_t process, const coordinator::Outputs& out) {
     replies_.push_back(reply);
   }
   for (const Notice& notice : out.notices) {
-    if (notice.text.find("turning back") != std::string::npos) ++faults_.turned_back;
-    if (notice.text.find("freezing where") != std::string::npos) ++faults_.frozen_for_loss;
+    hear_notice(notice.text);
     say([&] { return processes_[process].name(process) + ": " + notice.text; });
   }
+}
+
+void Swarm::hear_notice(const std::string& notice) {
+  const auto tells = [&notice](const std::string& what) { return notice.find(what) != std::string::npos; };
+  if (tells("turning back")) ++faults_.turned_back;
+  if (tells("freezing where")) ++faults_.frozen_for_loss;
+  if (loss_ && tells(text("agent %u is silent", processes_[loss_->process].carrier))) {
+    ++faults_.losses_named;
+    loss_.reset();
+  }
+}
+
+void Swarm::watch_losses() {
+  if (!loss_ || now_ - loss_->at <= kNamedWithin) return;
+  checkers_.report(Finding::Kind::kSafety, now_, "loss",
+                   text("agent %u is dead for %.2f s and nobody says so", processes_[loss_->process].carrier,
+                        seconds(now_ - loss_->at)));
+  loss_.reset();
 }
 
 void Swarm::watch_course(std::size_t process) {
@@ -501,6 +524,15 @@ protocol::CarrierState Swarm::vehicle_state(std::size_t agent) const {
   s.winch_rate_m_s = w.rate_by_velocity * v.last.winch_rate_m_s;
   s.cable_length_m = s.winch_length_m;
   return s;
+}
+
+bool Swarm::untroubled() const {
+  const Weather& w = network_.weather;
+  const bool fine = w.loss <= 0.0 && w.bursts_per_s <= 0.0 && w.overtaken <= 0.0 && w.garbage <= 0.0;
+  if (!fine || !network_.groups.empty() || coordinators_alive() != 1 || coordinator()->term() == 0) return false;
+  return std::all_of(processes_.begin(), processes_.end(), [this](const Process& p) {
+    return (p.carrier == 0 || p.sends_setpoints) && now_ >= p.held_until + kNamedWithin;
+  });
 }
 
 std::size_t Swarm::coordinators_alive() const {

@@ -22,9 +22,10 @@ namespace gyre::swarm {
 /// How many of each fault really happened, beside the packets' own counts.
 struct FaultCounts {
   PacketCounts packets;
-  std::uint64_t agents_killed = 0, coordinators_killed = 0, killed_in_transition = 0, suspended = 0, stalled = 0,
-                partitions = 0, second_coordinators = 0, stood_down = 0, stood_down_alone = 0, commands = 0,
-                retunes = 0, frozen_for_loss = 0, turned_back = 0;
+  std::uint64_t agents_killed = 0, coordinators_killed = 0, killed_in_transition = 0, suspended = 0, stalled = 0;
+  std::uint64_t partitions = 0, second_coordinators = 0, stood_down = 0, stood_down_alone = 0;
+  std::uint64_t commands = 0, retunes = 0, unflyable = 0;
+  std::uint64_t losses_named = 0, frozen_for_loss = 0, turned_back = 0;
 };
 
 /// Ways to break a swarm on purpose, to see that the judges notice. Empty ones change nothing.
@@ -68,6 +69,8 @@ class Swarm {
   [[nodiscard]] bool agrees(Duration clock_bound, std::string* why) const;
   [[nodiscard]] bool at_rest() const;
   [[nodiscard]] bool merged() const { return !checkers_.anybody_merging(); }
+  /// Whether the wire is good and everybody there, so that a loss has to be named in time.
+  [[nodiscard]] bool untroubled() const;
   [[nodiscard]] std::optional<coordinator::Outcome> last_outcome() const { return last_outcome_; }
   [[nodiscard]] const std::vector<protocol::CommandReply>& replies() const { return replies_; }
 
@@ -102,6 +105,8 @@ class Swarm {
   void perform(std::size_t process, const agent::Outputs& out);
   void perform(std::size_t process, const coordinator::Outputs& out);
   void watch_course(std::size_t process);
+  void watch_losses();
+  void hear_notice(const std::string& notice);
   [[nodiscard]] LocalTime local(std::size_t process);
   [[nodiscard]] coordinator::Job job(std::size_t motion) const;
   [[nodiscard]] protocol::CarrierState vehicle_state(std::size_t agent) const;
@@ -132,6 +137,11 @@ class Swarm {
   bool healed_ = false;
   bool ending_ = false;
   RandomStream chores_;
+  struct Loss {
+    std::size_t process = 0;
+    TrueTime at{};
+  };
+  std::optional<Loss> loss_;  ///< that is to be named
 };
 
 }  // namespace gyre::swarm

@@ -265,6 +265,14 @@ void Coordinator::watch_agents(LocalTime now, Outputs& out) {
     const char* what = change.lost ? "is silent" : change.restarted ? "was restarted" : "is here";
     tell(out, change.lost ? Notice::Level::kWarning : Notice::Level::kInfo, text("agent %u %s", change.carrier, what));
   }
+  const auto silent = [&](CarrierId id) { return fleet_.silent(now, id); };
+  if (std::all_of(carriers_.begin(), carriers_.end(), silent)) heard_nobody_at_ = now;
+}
+
+/// Whoever hears nobody is cut off itself: nobody would hear of a decision in time, and all would jump to it later.
+/// When the first are heard again, the others are given as long as it takes to call somebody lost.
+bool Coordinator::cut_off(LocalTime now) const {
+  return heard_nobody_at_ && now - *heard_nobody_at_ <= options_.loss_timeout;
 }
 
 std::vector<CarrierId> Coordinator::lost(LocalTime now) const {

@@ -127,6 +127,7 @@ class Coordinator {
   [[nodiscard]] std::vector<mechanics::TimedLayer> layers(CarrierId carrier, const protocol::Course& course,
                                                           SwarmTime origin) const;
   [[nodiscard]] std::vector<CarrierId> lost(LocalTime now) const;
+  [[nodiscard]] bool cut_off(LocalTime now) const;
   [[nodiscard]] std::vector<CarrierId> unconfirmed(LocalTime now) const;
   [[nodiscard]] std::vector<CarrierId> without_base(LocalTime now) const;
   [[nodiscard]] std::optional<std::string> refusal_of(const protocol::PlanNumber& plan) const;
@@ -165,6 +166,7 @@ class Coordinator {
   std::optional<std::uint64_t> starting_;  ///< transition whose start is still to be checked
 
   std::optional<LocalTime> listening_since_;
+  std::optional<LocalTime> heard_nobody_at_;  ///< the last time that everybody was silent
   LocalTime term_since_{};
   LocalTime next_tick_ = LocalTime::min();  // a clock may well begin below zero
   LocalTime next_status_ = LocalTime::min();

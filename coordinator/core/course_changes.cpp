@@ -134,8 +134,7 @@ void Coordinator::drive(LocalTime now, Outputs& out) {
     return begin(now, intent);
   }
   const std::vector<CarrierId> gone = lost(now);
-  // Whoever hears nobody is cut off itself: nobody would hear of a freeze in time, and all would jump to it later.
-  const bool some_gone = !gone.empty() && gone.size() < carriers_.size();
+  const bool some_gone = !gone.empty() && !cut_off(now);
   if (some_gone && !frozen_for_loss_ && moving() && job_.on_agent_loss == AgentLoss::kFreeze && !shutting_down_) {
     tell(out, Notice::Level::kError, "lost " + list(gone) + ": freezing where it stopped");
     engage_ = false;
@@ -292,7 +291,7 @@ void Coordinator::check_start(LocalTime now, Outputs& out) {
     starting_.reset();
     return;
   }
-  if (swarm_time(now) < found->start + options_.start_check) return;
+  if (swarm_time(now) < found->start + options_.start_check || cut_off(now)) return;
   const auto follows = [&](const protocol::AgentStatus& s) {
     const auto& theirs = s.course.transitions;
     if (s.term != term_) return false;

@@ -226,6 +226,12 @@ void Coordinator::listen(LocalTime now, Outputs& out) {
   // Nobody heard is nobody to lead; and whoever flies out there would not take a swarm time that is not theirs.
   const auto heard = [this](CarrierId id) { return fleet_.status(id) != nullptr; };
   if (std::none_of(carriers_.begin(), carriers_.end(), heard)) return;
+  if (const auto stranger = recovery_.stranger_to(by_carrier(mechanics::slices(job_.plan)))) {
+    out.finished = Outcome{false, text("a swarm with another load flies here: carrier %u is attached elsewhere than in "
+                                       "this mission; start with the mission that is flown, or use another domain",
+                                       *stranger)};
+    return;
+  }
   take_term(now, out);
 }
 

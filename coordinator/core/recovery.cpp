@@ -37,6 +37,16 @@ void Recovery::take(const protocol::HeldPlans& held) {
   for (const protocol::NumberedSlice& numbered : held.slices) plans_[numbered.number][held.carrier] = numbered.slice;
 }
 
+std::optional<CarrierId> Recovery::stranger_to(const Slices& ours) const {
+  for (const auto& [number, slices] : plans_) {
+    for (const auto& [carrier, slice] : slices) {
+      const auto own = ours.find(carrier);
+      if (own != ours.end() && own->second.attachment_w_m != slice.attachment_w_m) return carrier;
+    }
+  }
+  return std::nullopt;
+}
+
 bool Recovery::complete_for(CarrierId carrier) const {
   if (!course_) return true;
   const auto numbers = protocol::plans_of(*course_);

@@ -28,6 +28,8 @@ class Recovery {
   [[nodiscard]] Duration swarm_offset() const { return *swarm_offset_; }  ///< there is one where there is a course
   [[nodiscard]] std::uint64_t last_transition() const { return last_transition_; }
   [[nodiscard]] const std::map<protocol::PlanNumber, Slices>& plans() const { return plans_; }
+  /// A carrier whose attachment is elsewhere in what flies than in `ours`: another mission's swarm.
+  [[nodiscard]] std::optional<CarrierId> stranger_to(const Slices& ours) const;
   /// Every plan of the course is known for this carrier.
   [[nodiscard]] bool complete_for(CarrierId carrier) const;
 

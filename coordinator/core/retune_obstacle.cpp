@@ -13,6 +13,11 @@ std::optional<std::string> retune_obstacle(const mechanics::Plan& flown, const m
   if (a.position_w_m != b.position_w_m || !a.orientation_w_b.isApprox(b.orientation_w_b)) {
     return "the load's pose differs from the one that is flown; a flight keeps the load where it is";
   }
+  // The cable is the same piece of rope: another stiffness would step the winches by the difference in stretch.
+  if (flown.cable.stiffness_n_m != wanted.cable.stiffness_n_m ||
+      flown.cable.compensate_stretch != wanted.cable.compensate_stretch) {
+    return "the cables' stiffness, or whether their stretch is compensated, differs from the ones that are flown";
+  }
   if (flown.carriers.size() != wanted.carriers.size()) {
     return text("it has %zu carriers, %zu are flying", wanted.carriers.size(), flown.carriers.size());
   }

@@ -201,9 +201,12 @@ void Swarm::observe() {
 
 // --------------------------------------------------------------------------------------------------- life and death
 
+Duration Swarm::clock_error(std::size_t process) const {
+  return sabotage_.clock_error ? sabotage_.clock_error(process, now_) : Duration::zero();
+}
+
 LocalTime Swarm::local(std::size_t process) {
-  const Duration error = sabotage_.clock_error ? sabotage_.clock_error(process, now_) : Duration::zero();
-  return processes_[process].clock.at(now_) + error;
+  return processes_[process].clock.at(now_) + clock_error(process);
 }
 
 coordinator::Job Swarm::job(std::size_t motion) const {
@@ -393,7 +396,7 @@ void Swarm::step_agent(std::size_t process, agent::Event event) {
   agent::Outputs out = p.agent->step(local(process), event);
   if (sabotage_.agent_says) sabotage_.agent_says(index, now_, out);
   perform(process, out);
-  const TrueTime tick = std::max(p.clock.when(out.next_tick), now_ + Duration(1));
+  const TrueTime tick = std::max(p.clock.when(out.next_tick - clock_error(process)), now_ + Duration(1));
   if (tick >= p.tick_at && p.tick_at > now_) return;
   p.tick_at = tick;
   schedule({tick, 0, Happening::kTick, process, p.life, nullptr});
@@ -440,7 +443,7 @@ void Swarm::step_coordinator(std::size_t process, const coordinator::Event& even
     --faults_.coordinators_killed;
     return;
   }
-  const TrueTime tick = std::max(p.clock.when(out.next_tick), now_ + Duration(1));
+  const TrueTime tick = std::max(p.clock.when(out.next_tick - clock_error(process)), now_ + Duration(1));
   if (tick >= p.tick_at && p.tick_at > now_) return;
   p.tick_at = tick;
   schedule({tick, 0, Happening::kTick, process, p.life, nullptr});

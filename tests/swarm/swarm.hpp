@@ -107,6 +107,7 @@ class Swarm {
   void watch_course(std::size_t process);
   void watch_losses();
   void hear_notice(const std::string& notice);
+  [[nodiscard]] Duration clock_error(std::size_t process) const;
   [[nodiscard]] LocalTime local(std::size_t process);
   [[nodiscard]] coordinator::Job job(std::size_t motion) const;
   [[nodiscard]] protocol::CarrierState vehicle_state(std::size_t agent) const;

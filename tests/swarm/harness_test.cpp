@@ -1,0 +1,230 @@
+// A judge that never finds anything proves nothing: every one of them is shown a swarm that is broken on purpose.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <type_traits>
+
+#include "tests/swarm/flight.hpp"
+
+namespace gyre::swarm {
+namespace {
+
+using protocol::Stage;
+
+// No core can be told a wall clock: its time is a type of its own, which no other clock converts to.
+static_assert(!std::is_constructible_v<LocalTime, std::chrono::system_clock::time_point>);
+static_assert(!std::is_constructible_v<SwarmTime, std::chrono::system_clock::time_point>);
+static_assert(!std::is_constructible_v<LocalTime, SwarmTime> && !std::is_constructible_v<SwarmTime, LocalTime>);
+
+bool at_or_after(TrueTime now, double at_s) {
+  return now >= TrueTime(from_seconds(at_s));
+}
+
+Scenario calm() {
+  return calm_scenario(7, 0);
+}
+
+/// A swarm that flies its motion, and nothing else happens.
+Scenario steady() {
+  Scenario s = calm();
+  const auto order = [](const Action& a) { return a.deed == Deed::kRetune || a.deed == Deed::kCommand; };
+  s.actions.erase(std::remove_if(s.actions.begin(), s.actions.end(), order), s.actions.end());
+  return s;
+}
+
+testing::AssertionResult finds(const FlightReport& report, const std::string& rule) {
+  for (const Finding& f : report.findings) {
+    if (f.rule == rule) return testing::AssertionSuccess();
+  }
+  return testing::AssertionFailure() << "nobody noticed; found instead:\n" << describe(report);
+}
+
+TEST(Judges, FindNothingInAGoodFlight) {
+  const FlightReport report = fly(calm());
+  EXPECT_TRUE(report.good()) << describe(report);
+}
+
+TEST(Judges, SeeAnAgentThatPullsTooHard) {
+  Sabotage s;
+  s.agent_says = [](std::size_t agent, TrueTime now, agent::Outputs& out) {
+    if (agent == 2 && at_or_after(now, 8.0) && out.setpoint) out.setpoint->tension_n *= 1.02;
+  };
+  EXPECT_TRUE(finds(fly(steady(), s), "equilibrium"));
+}
+
+TEST(Judges, SeeAnAgentThatFliesItsOwnCourse) {
+  Sabotage s;
+  s.agent_says = [](std::size_t agent, TrueTime now, agent::Outputs& out) {
+    if (agent != 1 || !at_or_after(now, 10.0) || !out.setpoint) return;
+    const Eigen::AngleAxisd turn(0.02, Eigen::Vector3d::UnitX());
+    out.setpoint->direction_w = turn * out.setpoint->direction_w;
+  };
+  EXPECT_TRUE(finds(fly(steady(), s), "equilibrium"));
+}
+
+TEST(Judges, SeeAnAgentThatIgnoresStages) {
+  Sabotage s;
+  // It takes every proposal for a go, whose start is long past.
+  s.agent_hears = [](std::size_t agent, TrueTime now, agent::Event& event) {
+    auto* beacon = std::get_if<protocol::Beacon>(&event);
+    if (agent != 0 || beacon == nullptr || !at_or_after(now, 9.0)) return;
+    for (protocol::Transition& t : beacon->course.transitions) {
+      t.start -= t.duration / 2;
+      t.stage = Stage::kGo;
+    }
+  };
+  EXPECT_TRUE(finds(fly(calm(), s), "half applied"));
+}
+
+TEST(Judges, SeeASetpointThatStepsByAMillimetre) {
+  Sabotage s;
+  s.agent_says = [](std::size_t agent, TrueTime now, agent::Outputs& out) {
+    if (agent == 3 && at_or_after(now, 9.0) && out.setpoint) out.setpoint->position_w_m.x() += 1e-3;
+  };
+  EXPECT_TRUE(finds(fly(steady(), s), "continuity"));
+}
+
+TEST(Judges, SeeAVelocityThatSteps) {
+  Sabotage s;
+  s.agent_says = [](std::size_t agent, TrueTime now, agent::Outputs& out) {
+    if (agent == 3 && at_or_after(now, 9.0) && out.setpoint) out.setpoint->velocity_w_m_s.y() += 0.2;
+  };
+  EXPECT_TRUE(finds(fly(steady(), s), "continuity"));
+}
+
+TEST(Judges, SeeAClockThatJumps) {
+  for (const double by_s : {1e-3, -1e-3, 0.05, -0.05}) {
+    Sabotage s;
+    s.clock_error = [by_s](std::size_t process, TrueTime now) {
+      return process == kCoordinators && at_or_after(now, 10.0) ? from_seconds(by_s) : Duration::zero();
+    };
+    EXPECT_TRUE(finds(fly(steady(), s), "swarm time")) << by_s;
+  }
+}
+
+TEST(Judges, SeeAnAgentThatIsSurerOfItsClockThanItMayBe) {
+  Sabotage s;
+  s.agent_says = [](std::size_t /*agent*/, TrueTime, agent::Outputs& out) {
+    if (out.status) out.status->clock_uncertainty = Duration::zero();
+  };
+  s.agent_hears = [](std::size_t agent, TrueTime, agent::Event& event) {
+    auto* reply = std::get_if<agent::TimeReplyArrived>(&event);
+    if (agent != 0 || reply == nullptr) return;
+    reply->reply.request_received += std::chrono::microseconds(400);
+    reply->reply.reply_sent += std::chrono::microseconds(400);
+  };
+  EXPECT_TRUE(finds(fly(steady(), s), "clocks"));
+}
+
+TEST(Judges, SeeATermThatGoesBack) {
+  Sabotage s;
+  s.agent_says = [](std::size_t agent, TrueTime now, agent::Outputs& out) {
+    if (agent == 0 && at_or_after(now, 12.0) && out.status) --out.status->term;
+  };
+  EXPECT_TRUE(finds(fly(steady(), s), "terms"));
+}
+
+TEST(Judges, SeeALossThatIsNotNamed) {
+  Scenario scenario = steady();
+  Action kill;
+  kill.at = TrueTime(from_seconds(12.0));
+  kill.deed = Deed::kKill;
+  kill.process = kCoordinators;
+  scenario.actions.insert(std::prev(scenario.actions.end()), kill);
+  EXPECT_TRUE(fly(scenario).good());
+  Sabotage s;
+  s.coordinator_says = [](std::size_t, TrueTime, coordinator::Outputs& out) { out.notices.clear(); };
+  EXPECT_TRUE(finds(fly(scenario, s), "loss"));
+}
+
+TEST(Judges, SeeTwoCoordinatorsThatDoNotHearEachOther) {
+  Scenario scenario = steady();
+  Action second;
+  second.at = TrueTime(from_seconds(12.0));
+  second.deed = Deed::kStart;
+  second.process = 1;
+  scenario.actions.insert(std::prev(scenario.actions.end()), second);
+  EXPECT_TRUE(fly(scenario).good()) << "the second one stands down";
+  Sabotage s;
+  s.coordinator_is_deaf = [](std::size_t) { return true; };
+  // Deaf and blind: what the agents say of a newer term is kept from the older one.
+  s.agent_says = [](std::size_t, TrueTime, agent::Outputs& out) {
+    if (out.status) out.status->term = 1;
+  };
+  EXPECT_TRUE(finds(fly(scenario, s), "agreement"));
+}
+
+TEST(Judges, SeeASwarmThatDoesNotFindTogether) {
+  Sabotage s;
+  s.agent_hears = [](std::size_t agent, TrueTime now, agent::Event& event) {
+    auto* beacon = std::get_if<protocol::Beacon>(&event);
+    if (agent == 2 && at_or_after(now, 14.0) && beacon != nullptr) beacon->sequence = 0;
+  };
+  EXPECT_TRUE(finds(fly(calm(), s), "agreement"));
+}
+
+TEST(Judges, SeeAFlightThatDoesNotEnd) {
+  Sabotage s;
+  s.agent_says = [](std::size_t agent, TrueTime now, agent::Outputs& out) {
+    if (agent == 2 && at_or_after(now, 26.0) && out.status) out.status->confirmed = 0;
+  };
+  EXPECT_TRUE(finds(fly(steady(), s), "rest"));
+}
+
+TEST(Judges, SeeAnAgentThatNeverMergesBack) {
+  Sabotage s;
+  s.agent_says = [](std::size_t agent, TrueTime, agent::Outputs& out) {
+    if (agent == 1 && out.setpoint) out.setpoint->position_w_m.z() += 0.5;
+  };
+  EXPECT_TRUE(finds(fly(steady(), s), "merging"));
+}
+
+TEST(HalfAppliedBound, IsSmallForLongTransitionsAndGrowsForShortOnes) {
+  EXPECT_LT(half_applied_bound(5.0), 0.2);
+  EXPECT_LT(half_applied_bound(60.0), 1e-3);
+  EXPECT_GT(half_applied_bound(1.0), half_applied_bound(2.0));
+  EXPECT_LE(half_applied_bound(0.5), 1.0);
+}
+
+TEST(Difference, CountsWhatOneFliesAndTheOtherDoesNot) {
+  const protocol::TimedPlan rest{{1, 1}, SwarmTime{}};
+  const protocol::TimedPlan motion{{1, 2}, SwarmTime{}};
+  protocol::Course before{1, rest, {}};
+  protocol::Course during = before;
+  during.transitions.push_back({1, motion, SwarmTime{}, std::chrono::seconds(4), Stage::kGo});
+  protocol::Course after{2, motion, {}};
+  const SwarmTime half(std::chrono::seconds(2));
+  const SwarmTime end(std::chrono::seconds(4));
+  EXPECT_EQ(difference(before, before, half), 0.0);
+  EXPECT_NEAR(difference(before, during, half), 0.5, 1e-12);
+  EXPECT_EQ(difference(before, during, SwarmTime{}), 0.0);
+  EXPECT_EQ(difference(during, after, end), 0.0) << "settled or not, it is the same motion";
+  EXPECT_EQ(difference(before, after, half), 1.0);
+}
+
+TEST(VirtualClock, ShowsItsDriftAndFindsBack) {
+  VirtualClock clock(RandomStream(1, "clock"), -std::chrono::hours(3), 150e-6, 0.0);
+  const TrueTime later(std::chrono::seconds(1000));
+  const LocalTime shown = clock.at(later);
+  EXPECT_NEAR(seconds(shown.time_since_epoch()) + 3 * 3600.0, 1000.0 * (1.0 + 150e-6), 1e-6);
+  const TrueTime when = clock.when(shown + std::chrono::milliseconds(10));
+  EXPECT_GE(clock.at(when), shown + std::chrono::milliseconds(10));
+  EXPECT_LT(clock.at(when), shown + std::chrono::milliseconds(10) + std::chrono::microseconds(1));
+}
+
+TEST(Network, LosesWhatItIsToldToLose) {
+  Network network(1, 4);
+  network.weather.loss = 0.9;
+  int arrived = 0;
+  constexpr int kPackets = 20000;
+  for (int i = 0; i < kPackets; ++i) arrived += network.send(TrueTime(std::chrono::milliseconds(i)), 0, 1).copies;
+  EXPECT_NEAR(arrived, 0.1 * kPackets, 0.01 * kPackets);
+  network.weather = Weather{};
+  network.groups = {0, 0, 1, 1};
+  EXPECT_EQ(network.send(TrueTime{}, 0, 2).copies, 0);
+  EXPECT_EQ(network.send(TrueTime{}, 0, 1).copies, 1);
+}
+
+}  // namespace
+}  // namespace gyre::swarm

@@ -43,7 +43,8 @@ Result<std::unique_ptr<FaultFlight>> FaultFlight::start(const Options& options) 
       new FaultFlight(options, std::move(mission).value(), std::move(observer).value()));
   if (options.simulator) flight->start_process("simulator");
   for (const CarrierId id : carriers) flight->start_process(agent_name(id));
-  flight->start_process("coordinator", {"--engage"});
+  flight->start_process("coordinator",
+                        options.engage ? std::vector<std::string>{"--engage"} : std::vector<std::string>{});
   return flight;
 }
 
@@ -101,6 +102,12 @@ bool FaultFlight::every_agent(const std::function<bool(const protocol::AgentStat
 bool FaultFlight::all_flying() const {
   return every_agent([](const protocol::AgentStatus& s) {
     return s.state == protocol::AgentState::kFlying && s.course.transitions.empty();
+  });
+}
+
+bool FaultFlight::all_ready() const {
+  return every_agent([](const protocol::AgentStatus& s) {
+    return s.state == protocol::AgentState::kReady && s.course.transitions.empty();
   });
 }
 

@@ -31,10 +31,11 @@ class FaultFlight {
     std::string log_directory;  ///< exists
     std::string program_directory;
     std::map<std::string, ClockFault> clocks;  ///< by process
+    bool engage = true;                        ///< as soon as all are ready
     bool simulator = true;
   };
 
-  /// Starts the observer and every process; the coordinator engages as soon as all are ready.
+  /// Starts the observer and every process.
   [[nodiscard]] static Result<std::unique_ptr<FaultFlight>> start(const Options& options);
 
   void start_process(const std::string& name, const std::vector<std::string>& more = {});
@@ -47,6 +48,7 @@ class FaultFlight {
 
   [[nodiscard]] const mission::Mission& mission() const { return mission_; }
   [[nodiscard]] const std::vector<CarrierId>& carriers() const { return carriers_; }
+  [[nodiscard]] FlightObserver& observer() { return *observer_; }
   [[nodiscard]] const FlightObserver& observer() const { return *observer_; }
 
   /// How long it took until it held; absent when it did not within the limit.
@@ -54,7 +56,10 @@ class FaultFlight {
 
   /// Every agent's newest status, not older than 300 ms, is so.
   [[nodiscard]] bool every_agent(const std::function<bool(const protocol::AgentStatus&)>& is_so) const;
+  /// By the mission's motion, with no transition under way.
   [[nodiscard]] bool all_flying() const;
+  /// By a plan at rest, with no transition under way.
+  [[nodiscard]] bool all_ready() const;
   /// The transition the newest beacon has on top, if any.
   [[nodiscard]] std::optional<protocol::Transition> transition() const;
   [[nodiscard]] std::uint64_t term() const;

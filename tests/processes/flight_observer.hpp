@@ -47,6 +47,8 @@ class FlightObserver {
     return std::unique_ptr<FlightObserver>(new FlightObserver(std::move(node).value(), carriers));
   }
 
+  void command(protocol::CommandKind kind) { commands_.write({++last_command_, kind, {}}); }
+
   /// What `question(const FlightRecord&)` answers, while nothing is added.
   template <class Question>
   [[nodiscard]] auto ask(const Question& question) const {
@@ -56,6 +58,7 @@ class FlightObserver {
 
  private:
   FlightObserver(std::unique_ptr<dds::Node> node, const std::vector<CarrierId>& carriers) : node_(std::move(node)) {
+    commands_ = node_->writer<protocol::Command>();
     keep(record_.beacons, std::nullopt);
     keep(record_.load, std::nullopt);
     for (const CarrierId id : carriers) {
@@ -77,6 +80,8 @@ class FlightObserver {
         carrier);
   }
 
+  dds::Writer<protocol::Command> commands_;
+  std::uint64_t last_command_ = 0;
   mutable std::mutex mutex_;
   FlightRecord record_;
   std::unique_ptr<dds::Node> node_;  // gone first: its handlers write above

@@ -20,6 +20,8 @@ constexpr double kMerging_m = 1e-6;
 constexpr double kPacePeak = 1.875;
 constexpr double kBendPeak = 5.7735;
 /// Of the clock that is read, by rounding and by reading it at two moments of one step.
+/// A vehicle is then on its own (agent options: stall), and its agent no longer knows where it is.
+constexpr double kSilence_s = 0.3;
 constexpr double kSwarmTimeJump_s = 2e-6;
 
 double internal_n(const mechanics::CarrierSlice& slice) {
@@ -144,8 +146,9 @@ void Checkers::status(std::size_t agent, TrueTime now, const protocol::AgentStat
 }
 
 void Checkers::setpoint(std::size_t agent, TrueTime now, const protocol::Setpoint& setpoint,
-                        const protocol::Course& course) {
+                        const protocol::CarrierState& vehicle, const protocol::Course& course) {
   Agent& a = agents_[agent];
+  if (!a.last || seconds(now - a.last->at) > kSilence_s) check_return(now, setpoint, vehicle);
   ++extremes_.setpoints;
   a.before = a.last;
   a.last = Sample{now, setpoint};
@@ -155,6 +158,17 @@ void Checkers::setpoint(std::size_t agent, TrueTime now, const protocol::Setpoin
     a.flown = course;
   }
   if (a.before) check_continuity(now, a, *a.before, *a.last);
+}
+
+void Checkers::check_return(TrueTime now, const protocol::Setpoint& s, const protocol::CarrierState& vehicle) {
+  // The vehicle tells its state every 20 ms, and slows down or follows a curve meanwhile.
+  constexpr double kStateAge_s = 0.04;
+  const double bound_m = 1e-6 + acceleration_m_s2_ * kStateAge_s * kStateAge_s;
+  const double step_m = (s.position_w_m - vehicle.position_w_m).norm();
+  if (step_m <= bound_m) return;
+  report(
+      Finding::Kind::kSafety, now, "return",
+      text("agent %u comes back %.3g mm away from its vehicle (bound %.3g)", s.carrier, 1e3 * step_m, 1e3 * bound_m));
 }
 
 void Checkers::check_continuity(TrueTime now, const Agent& /*agent*/, const Sample& before, const Sample& last) {

@@ -4,6 +4,7 @@
 //   rule          what has to hold                                                                  bound
 //   equilibrium   |sum of wrenches − w| of the forces the setpoints imply, at every instant          explained below
 //   continuity    no step in position or velocity of any agent's setpoints                          acceleration · dt
+//   return        the first setpoint after a silence is where the vehicle has got to meanwhile       40 ms of motion
 //   swarm time    at an agent never runs backwards, never jumps                                      slew + drift
 //   clocks        two agents' swarm times differ by no more than both say they may                  published
 //   half applied  how much of a transition some fly and others do not                               half_applied_bound
@@ -48,8 +49,9 @@ class Checkers {
  public:
   Checkers(const LoadWithMotions& load, const Scenario& scenario);
 
-  /// `course`: what the agent flew when it sent this.
-  void setpoint(std::size_t agent, TrueTime now, const protocol::Setpoint& setpoint, const protocol::Course& course);
+  /// `vehicle`: where the carrier was when this came; `course`: what the agent flew when it sent this.
+  void setpoint(std::size_t agent, TrueTime now, const protocol::Setpoint& setpoint,
+                const protocol::CarrierState& vehicle, const protocol::Course& course);
   void status(std::size_t agent, TrueTime now, const protocol::AgentStatus& status);
   /// The process of this agent begins a new life: what it says is held against nothing it said before.
   void begins(std::size_t agent);
@@ -86,6 +88,7 @@ class Checkers {
   struct Moment;
 
   void check_continuity(TrueTime now, const Agent& agent, const Sample& before, const Sample& last);
+  void check_return(TrueTime now, const protocol::Setpoint& setpoint, const protocol::CarrierState& vehicle);
   void check_clocks(const Moment& moment);
   void check_equilibrium(const Moment& moment, double half_applied, double pace_per_s);
 

@@ -5,6 +5,7 @@
 
 #include "common/base/random_stream.hpp"
 #include "common/mechanics/certificate.hpp"
+#include "common/mechanics/rest_plan.hpp"
 
 namespace gyre::swarm {
 namespace {
@@ -122,6 +123,7 @@ LoadWithMotions with_room(std::vector<Plan> motions) {
   out.vehicle = room_for(motions);
   for (Plan& plan : motions) plan.limits = out.vehicle;
   out.motions = std::move(motions);
+  out.rest = mechanics::rest_plan(out.motions.front());
   return out;
 }
 

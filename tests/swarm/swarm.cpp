@@ -11,7 +11,8 @@ namespace gyre::swarm {
 namespace {
 
 constexpr Duration kObservation = std::chrono::milliseconds(20);
-constexpr Duration kVehiclePeriod = std::chrono::milliseconds(20);
+/// A vehicle's state matters only to an agent that does not know it from its own setpoints.
+constexpr Duration kLeftAlone = std::chrono::milliseconds(40);
 /// Until a new process knows the others, and they it.
 constexpr Duration kDiscovery = std::chrono::milliseconds(200);
 /// A reader asks again for what it knows to have missed (INTEROP, heartbeat period 20 to 50 ms).
@@ -59,11 +60,11 @@ Swarm::Swarm(const Scenario& scenario, const Sabotage& sabotage, Trace trace)
       }
     }
   }
-  const mechanics::Plan rest = load_.motions.front();
-  const auto still = mechanics::slices(rest);
+  const auto still = mechanics::slices(load_.rest);
   for (std::size_t i = 0; i < still.size(); ++i) {
-    vehicles_[i].last.position_w_m = mechanics::evaluate(still[i], 0.0).position_w_m.value;
-    vehicles_[i].last.winch_length_m = mechanics::evaluate(still[i], 0.0).length_m.value;
+    const mechanics::Reference r = mechanics::evaluate(still[i], 0.0);
+    vehicles_[i].last.position_w_m = r.position_w_m.value;
+    vehicles_[i].last.winch_length_m = r.length_m.value - r.tension_n.value / still[i].cable_stiffness_n_m;
   }
   for (std::size_t i = 0; i < scenario_.actions.size(); ++i)
     schedule({scenario_.actions[i].at, 0, Happening::kAction, i, 0, nullptr});
@@ -123,12 +124,6 @@ void Swarm::happen(const Happening& h) {
         kill(h.index);
       }
       return;
-    case Happening::kVehicle: {
-      const Process& p = processes_[h.index];
-      if (!p.running() || p.life != h.number || p.sends_setpoints) return;
-      arrive(h.index, Message{vehicle_state(h.index - kCoordinators)});
-      return schedule({now_ + kVehiclePeriod, 0, Happening::kVehicle, h.index, h.number, nullptr});
-    }
     case Happening::kSupervise:
       if (!processes_[h.index].running() && coordinators_alive() == 0 && !ending_) start(h.index);
       return;
@@ -195,6 +190,7 @@ void Swarm::observe() {
   const bool bad = w.loss > 0.3 || w.bursts_per_s > 0.0 || w.overtaken > 0.0 || w.lies > 0.0 ||
                    !network_.groups.empty() || coordinators_alive() != 1;
   if (bad) checkers_.disturbed(now_ + kAftermath);
+  tell_vehicle_states();
   checkers_.instant(now_);
   watch_losses();
 }
@@ -234,7 +230,6 @@ void Swarm::start(std::size_t process) {
     options.vehicle = load_.vehicle;
     p.agent = std::make_unique<agent::Agent>(options);
     checkers_.begins(process - kCoordinators);
-    schedule({now_ + kDiscovery, 0, Happening::kVehicle, process, p.life, nullptr});
   } else {
     coordinator::CoordinatorOptions options;
     options.nonce = chores_.next();
@@ -410,7 +405,7 @@ void Swarm::perform(std::size_t process, const agent::Outputs& out) {
     for (std::size_t c = 0; c < kCoordinators; ++c) send(process, c, message);
   }
   if (out.setpoint) {
-    checkers_.setpoint(index, now_, *out.setpoint, processes_[process].agent->course());
+    checkers_.setpoint(index, now_, *out.setpoint, vehicle_state(index), processes_[process].agent->course());
     vehicles_[index] = {now_, *out.setpoint};
     processes_[process].sends_setpoints = true;
   }
@@ -527,6 +522,15 @@ protocol::CarrierState Swarm::vehicle_state(std::size_t agent) const {
   s.winch_rate_m_s = w.rate_by_velocity * v.last.winch_rate_m_s;
   s.cable_length_m = s.winch_length_m;
   return s;
+}
+
+void Swarm::tell_vehicle_states() {
+  for (std::size_t p = kCoordinators; p < processes_.size(); ++p) {
+    if (!processes_[p].running() || !processes_[p].joined) continue;
+    const Vehicle& vehicle = vehicles_[p - kCoordinators];
+    if (processes_[p].sends_setpoints && now_ - vehicle.since < kLeftAlone) continue;
+    arrive(p, Message{vehicle_state(p - kCoordinators)});
+  }
 }
 
 bool Swarm::untroubled() const {

@@ -106,6 +106,7 @@ class Swarm {
   void perform(std::size_t process, const coordinator::Outputs& out);
   void watch_course(std::size_t process);
   void watch_losses();
+  void tell_vehicle_states();
   void hear_notice(const std::string& notice);
   [[nodiscard]] Duration clock_error(std::size_t process) const;
   [[nodiscard]] LocalTime local(std::size_t process);

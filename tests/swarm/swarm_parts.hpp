@@ -56,7 +56,7 @@ struct Message {
 void lie(RandomStream& random, protocol::TimeReply& reply);
 
 struct Happening {
-  enum Kind { kAction, kObservation, kTick, kJoin, kArrival, kRetry, kRelease, kKill, kVehicle, kSupervise };
+  enum Kind { kAction, kObservation, kTick, kJoin, kArrival, kRetry, kRelease, kKill, kSupervise };
   TrueTime at{};
   std::uint64_t order = 0;
   Kind kind = kAction;

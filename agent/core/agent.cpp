@@ -27,8 +27,10 @@ Command command_of(const mechanics::Reference& r, double stiffness_n_m) {
   return command;
 }
 
-Command command_of(const protocol::CarrierState& s) {
-  return {{s.position_w_m, s.velocity_w_m_s, Eigen::Vector3d::Zero()}, {s.winch_length_m, s.winch_rate_m_s, 0.0}};
+/// Where a carrier is `age_s` after it said so.
+Command command_of(const protocol::CarrierState& s, double age_s) {
+  return {{s.position_w_m + age_s * s.velocity_w_m_s, s.velocity_w_m_s, Eigen::Vector3d::Zero()},
+          {s.winch_length_m + age_s * s.winch_rate_m_s, s.winch_rate_m_s, 0.0}};
 }
 
 }  // namespace
@@ -65,7 +67,8 @@ void Agent::on(LocalTime now, const Tick& /*tick*/, Outputs& out) {
   const std::optional<SwarmTime> time = swarm_time(now);
   if (time) {
     protocol::settle(course_, *time);
-    if (const auto r = reference(course_, *time)) out.setpoint = setpoint(*time, *r);
+    const auto r = reference(course_, *time);
+    if (r && back_at_the_vehicle(now, *r)) out.setpoint = setpoint(*time, *r);
   }
   const bool alone = coordinator_.ever_heard() && coordinator_.silent(now);
   if (alone != alone_) {
@@ -162,10 +165,30 @@ bool Agent::merge_to(LocalTime now, const protocol::Course& course, const mechan
   }
   if (!wants_vehicle_since_) wants_vehicle_since_ = now;
   if (vehicle_) {
-    merge_.begin(time, command_of(*vehicle_), next);
+    merge_.begin(time, command_of(*vehicle_, seconds(now - vehicle_heard_)), next);
   } else if (now - *wants_vehicle_since_ < options_.vehicle_wait) {
     return false;
   }
+  return true;
+}
+
+/// After a stall the vehicle has gone on by itself: what it is told next begins where it is. False while that is
+/// unknown.
+bool Agent::back_at_the_vehicle(LocalTime now, const mechanics::Reference& wanted) {
+  if (flown_at_ && now - *flown_at_ > options_.stall && !awake_since_) {
+    awake_since_ = now;
+    vehicle_.reset();
+  }
+  if (awake_since_) {
+    const Duration awake = now - *awake_since_;
+    if (awake < options_.backlog || (!vehicle_ && awake < options_.vehicle_wait)) return false;
+    if (vehicle_) {
+      const double stiffness = plans_.find(course_.base.number)->cable_stiffness_n_m;
+      merge_.begin(clock_.at(now), command_of(*vehicle_, seconds(now - vehicle_heard_)), command_of(wanted, stiffness));
+    }
+    awake_since_.reset();
+  }
+  flown_at_ = now;
   return true;
 }
 
@@ -204,12 +227,13 @@ void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
   }
 }
 
-void Agent::on(LocalTime /*now*/, const protocol::CarrierState& state, Outputs& /*out*/) {
+void Agent::on(LocalTime now, const protocol::CarrierState& state, Outputs& /*out*/) {
   if (!sane(state) || state.carrier != options_.carrier) {
     ++dropped_.nonsense;
     return;
   }
   vehicle_ = state;
+  vehicle_heard_ = now;
 }
 
 std::optional<mechanics::Reference> Agent::reference(const protocol::Course& course, SwarmTime now) const {

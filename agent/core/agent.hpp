@@ -32,6 +32,10 @@ struct AgentOptions {
   Duration beacon_age_max = std::chrono::seconds(1);  ///< and what this clock may be wrong by
   /// A restarted agent waits so long for its vehicle to tell where it is, rather than fly a step.
   Duration vehicle_wait = std::chrono::milliseconds(500);
+  /// Without a tick for so long, it was suspended, and its vehicle is not where the last setpoint leads any more.
+  Duration stall = std::chrono::milliseconds(200);
+  /// After that it listens so long before it believes where the vehicle is: old states have waited for it.
+  Duration backlog = std::chrono::milliseconds(50);
   protocol::TimekeeperOptions timekeeper;
 };
 
@@ -73,6 +77,7 @@ class Agent {
   void adopt(LocalTime now, const protocol::Course& course, Outputs& out);
   /// Whether to fly `wanted` from now on; it begins where the carrier is.
   [[nodiscard]] bool merge_to(LocalTime now, const protocol::Course& course, const mechanics::Reference& wanted);
+  [[nodiscard]] bool back_at_the_vehicle(LocalTime now, const mechanics::Reference& wanted);
   void confirm_proposal(SwarmTime now);
   [[nodiscard]] std::optional<mechanics::Reference> reference(const protocol::Course& course, SwarmTime now) const;
   [[nodiscard]] protocol::Setpoint setpoint(SwarmTime now, const mechanics::Reference& reference);
@@ -92,7 +97,10 @@ class Agent {
   std::uint64_t course_term_ = 0;
   std::uint64_t confirmed_ = 0;
   std::optional<protocol::CarrierState> vehicle_;  ///< where the carrier really is
+  LocalTime vehicle_heard_{};
   std::optional<LocalTime> wants_vehicle_since_;
+  std::optional<LocalTime> flown_at_;  ///< the last setpoint
+  std::optional<LocalTime> awake_since_;
 
   std::uint64_t setpoints_ = 0;
   std::uint64_t statuses_ = 0;

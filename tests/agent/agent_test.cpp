@@ -349,11 +349,40 @@ TEST_F(AgentTest, RefusesAPlanItsVehicleCannotFlyAndNeverFliesIt) {
 TEST_F(AgentTest, AStallIsNotMadeUpFor) {
   rest();
   const std::uint64_t before = setpoint_->sequence;
-  now_ += seconds(2);
+  now_ += milliseconds(150);
   const Outputs first = tell(Tick{});
   EXPECT_EQ(first.next_tick, now_ + milliseconds(10));
   for (int i = 0; i < 100; ++i) tell(Tick{});
   EXPECT_EQ(setpoint_->sequence, before + 1);
+}
+
+TEST_F(AgentTest, AfterALongStallItBeginsWhereItsCarrierHasGone) {
+  rest();
+  const Eigen::Vector3d planned = setpoint_->position_w_m;
+  now_ += seconds(2);
+  const std::uint64_t before = setpoint_->sequence;
+  tell(*vehicle_);  // said before the stall, and heard only now
+  tell(Tick{});
+  EXPECT_EQ(setpoint_->sequence, before) << "it does not know yet where its vehicle is";
+  vehicle_->position_w_m += Eigen::Vector3d(0.1, -0.05, 0.02);
+  std::optional<protocol::Setpoint> first;
+  visit_ = [&](const protocol::Setpoint& s) {
+    if (!first) first = s;
+  };
+  fly(milliseconds(200));
+  ASSERT_TRUE(first);
+  EXPECT_LT((first->position_w_m - vehicle_->position_w_m).norm(), 1e-9);
+  fly(seconds(10));
+  EXPECT_LT((setpoint_->position_w_m - planned).norm(), 1e-9);
+}
+
+TEST_F(AgentTest, AfterALongStallAMuteVehicleIsNotWaitedForForEver) {
+  rest();
+  vehicle_.reset();
+  now_ += seconds(2);
+  const std::uint64_t before = setpoint_->sequence;
+  fly(seconds(1));
+  EXPECT_GT(setpoint_->sequence, before);
 }
 
 TEST_F(AgentTest, RestartedInFlightItBeginsWhereItsCarrierIs) {

@@ -187,6 +187,8 @@ void Coordinator::on(LocalTime now, const Retune& retune, Outputs& out) {
   if (!retune.job) return refuse(retune.job.error().text);
   if (!room_for_transition()) return refuse("too many transitions are under way; wait until they are complete");
   if (const auto why = retune_obstacle(job_.plan, retune.job.value().plan)) return refuse(*why);
+  if (const auto gone = lost(now); !gone.empty())
+    return refuse(list(gone) + " cannot say whether it can be flown: lost");
   const bool at_rest = !moves(destination());
   before_retune_ = Mission{job_, rest_, motion_};
   job_ = retune.job.value();
@@ -223,9 +225,13 @@ void Coordinator::listen(LocalTime now, Outputs& out) {
   // Once everybody was heard, with every plan of the course if there is one, there is nothing left to learn.
   const auto known = [this](const protocol::AgentStatus& s) { return recovery_.complete_for(s.carrier); };
   if (!fleet_.missing(now, known).empty() && now - *listening_since_ < options_.listening) return;
-  // Nobody heard is nobody to lead; and whoever flies out there would not take a swarm time that is not theirs.
-  const auto heard = [this](CarrierId id) { return fleet_.status(id) != nullptr; };
-  if (std::none_of(carriers_.begin(), carriers_.end(), heard)) return;
+  // A swarm begins with everybody: whoever was not heard may fly out there, by a swarm time that is not this one's.
+  const std::vector<CarrierId> unheard = this->unheard();
+  if (!recovery_.course() && !unheard.empty()) {
+    const std::string told = "waiting for " + list(unheard) + ": a flight begins with all";
+    if (told != news_) tell(out, Notice::Level::kInfo, told);
+    return;
+  }
   if (const auto stranger = recovery_.stranger_to(by_carrier(mechanics::slices(job_.plan)))) {
     out.finished = Outcome{false, text("a swarm with another load flies here: carrier %u is attached elsewhere than in "
                                        "this mission; start with the mission that is flown, or use another domain",
@@ -233,6 +239,14 @@ void Coordinator::listen(LocalTime now, Outputs& out) {
     return;
   }
   take_term(now, out);
+}
+
+std::vector<CarrierId> Coordinator::unheard() const {
+  std::vector<CarrierId> out;
+  for (const CarrierId id : carriers_) {
+    if (fleet_.status(id) == nullptr) out.push_back(id);
+  }
+  return out;
 }
 
 void Coordinator::take_term(LocalTime now, Outputs& out) {

@@ -111,6 +111,7 @@ class Coordinator {
   void answer(std::uint64_t command, bool done, const std::string& text, Outputs& out);
   void listen(LocalTime now, Outputs& out);
   void take_term(LocalTime now, Outputs& out);
+  [[nodiscard]] std::vector<CarrierId> unheard() const;
   void watch_agents(LocalTime now, Outputs& out);
   void check_start(LocalTime now, Outputs& out);
   void drive(LocalTime now, Outputs& out);

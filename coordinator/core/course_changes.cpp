@@ -98,6 +98,7 @@ std::optional<std::string> Coordinator::obstacle(LocalTime now, const PlanNumber
   if (const auto refusal = refusal_of(to)) return "refused: " + *refusal;
   if (!room_for_transition()) return "too many transitions are under way; wait until they are complete";
   const std::vector<CarrierId> gone = lost(now);
+  if (gone.size() == carriers_.size()) return "no agent is heard: check the network between them and here";
   if (!gone.empty() && job_.on_agent_loss == AgentLoss::kFreeze && moves(to)) {
     return list(gone) + (gone.size() == 1 ? " is" : " are") + " lost, and the mission flies with all or not at all";
   }

@@ -97,10 +97,11 @@ void set_in_motion(Plan& plan, Draw& draw) {
   }
 }
 
-/// What vehicles for these motions can do: twice of what each asks for, and enough to merge within a minute.
+/// What vehicles for these motions can do: twice of what each asks for, and enough for transitions of
+/// a few seconds, which are not rehearsed.
 mechanics::Limits room_for(const std::vector<Plan>& motions) {
   mechanics::Limits limits;
-  double tension_n = 0.0, rate_m_s = 0.5, speed_m_s = 0.5, acceleration_m_s2 = 0.5;
+  double tension_n = 0.0, rate_m_s = 2.0, speed_m_s = 2.5, acceleration_m_s2 = 5.0;
   for (const Plan& plan : motions) {
     for (const mechanics::CarrierFigures& figures : mechanics::certify(plan).carriers) {
       tension_n = std::max(tension_n, figures.tension_n.max);
@@ -160,7 +161,7 @@ std::vector<LoadWithMotions> make_loads() {
 
 Plan too_fast(const Plan& plan) {
   Plan fast = plan;
-  fast.cycle.rate_rad_s *= 20.0;
+  fast.cycle.rate_rad_s *= 60.0;
   return fast;
 }
 

@@ -151,7 +151,7 @@ Scenario scenario(std::uint64_t seed) {
   w.start_all(w.chance(0.8) ? 0.5 : 4.0);
   Scenario& s = w.scenario();
   s.on_agent_loss = w.chance(0.5) ? coordinator::AgentLoss::kFreeze : coordinator::AgentLoss::kContinue;
-  s.transition = w.span(1.0, 5.0);
+  s.transition = w.span(2.0, 6.0);
   s.engage_when_ready = w.chance(0.6);
   s.rehearse = w.chance(0.005);
   const double begin_s = w.chance(0.2) ? 0.0 : 4.0;  // some swarms start into bad weather

@@ -21,6 +21,7 @@ constexpr Duration kHeartbeat = std::chrono::milliseconds(35);
 constexpr Duration kAftermath = std::chrono::seconds(1);
 /// DESIGN section 3: an agent that falls silent is named within this time.
 constexpr Duration kNamedWithin = std::chrono::milliseconds(500);
+constexpr Duration kLongestHeldBack = std::chrono::seconds(3);
 constexpr Duration kSupervisor = std::chrono::seconds(1);
 /// More never waits of one topic at a process that does not read: the middleware keeps the newest few.
 constexpr std::ptrdiff_t kWaitingOfOneKind = 4;
@@ -190,6 +191,7 @@ void Swarm::observe() {
   const bool bad = w.loss > 0.3 || w.bursts_per_s > 0.0 || w.overtaken > 0.0 || w.lies > 0.0 ||
                    !network_.groups.empty() || coordinators_alive() != 1;
   if (bad) checkers_.disturbed(now_ + kAftermath);
+  if (bad || w.garbage > 0.0) troubled_until_ = now_ + kLongestHeldBack;
   tell_vehicle_states();
   checkers_.instant(now_);
   watch_losses();
@@ -534,9 +536,8 @@ void Swarm::tell_vehicle_states() {
 }
 
 bool Swarm::untroubled() const {
-  const Weather& w = network_.weather;
-  const bool fine = w.loss <= 0.0 && w.bursts_per_s <= 0.0 && w.overtaken <= 0.0 && w.garbage <= 0.0;
-  if (!fine || !network_.groups.empty() || coordinators_alive() != 1 || coordinator()->term() == 0) return false;
+  if (now_ < troubled_until_ || network_.weather.loss > 0.0) return false;
+  if (coordinators_alive() != 1 || coordinator()->term() == 0) return false;
   return std::all_of(processes_.begin(), processes_.end(), [this](const Process& p) {
     return (p.carrier == 0 || p.sends_setpoints) && now_ >= p.held_until + kNamedWithin;
   });

@@ -139,6 +139,7 @@ class Swarm {
   bool healed_ = false;
   bool ending_ = false;
   RandomStream chores_;
+  TrueTime troubled_until_{};  ///< packets that were held back still arrive
   struct Loss {
     std::size_t process = 0;
     TrueTime at{};

@@ -37,7 +37,7 @@ Result<std::unique_ptr<FaultFlight>> FaultFlight::start(const Options& options) 
   if (!mission) return mission.error();
   std::vector<CarrierId> carriers;
   for (const mechanics::Carrier& carrier : mission.value().plan.carriers) carriers.push_back(carrier.id);
-  auto observer = FlightObserver::open(carriers);
+  auto observer = FlightObserver::open(carriers, options.watch);
   if (!observer) return observer.error();
   std::unique_ptr<FaultFlight> flight(
       new FaultFlight(options, std::move(mission).value(), std::move(observer).value()));

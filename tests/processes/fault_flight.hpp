@@ -33,6 +33,7 @@ class FaultFlight {
     std::map<std::string, ClockFault> clocks;  ///< by process
     bool engage = true;                        ///< as soon as all are ready
     bool simulator = true;
+    Watch watch = Watch::kEverything;
   };
 
   /// Starts the observer and every process.

@@ -38,13 +38,17 @@ struct FlightRecord {
   std::map<CarrierId, CarrierRecord> carriers;
 };
 
+/// A large swarm is watched by its statuses alone: to hear all of it would be the most of its traffic.
+enum class Watch { kEverything, kStatuses };
+
 class FlightObserver {
  public:
   /// Errors as dds::Node::open.
-  [[nodiscard]] static Result<std::unique_ptr<FlightObserver>> open(const std::vector<CarrierId>& carriers) {
+  [[nodiscard]] static Result<std::unique_ptr<FlightObserver>> open(const std::vector<CarrierId>& carriers,
+                                                                    Watch watch) {
     auto node = dds::Node::open({{dds::Hub::kGround, std::nullopt}, 0, "127.0.0.1", {}});
     if (!node) return node.error();
-    return std::unique_ptr<FlightObserver>(new FlightObserver(std::move(node).value(), carriers));
+    return std::unique_ptr<FlightObserver>(new FlightObserver(std::move(node).value(), carriers, watch));
   }
 
   void command(protocol::CommandKind kind) { commands_.write({++last_command_, kind, {}}); }
@@ -57,15 +61,17 @@ class FlightObserver {
   }
 
  private:
-  FlightObserver(std::unique_ptr<dds::Node> node, const std::vector<CarrierId>& carriers) : node_(std::move(node)) {
+  FlightObserver(std::unique_ptr<dds::Node> node, const std::vector<CarrierId>& carriers, Watch watch)
+      : node_(std::move(node)) {
     commands_ = node_->writer<protocol::Command>();
+    for (const CarrierId id : carriers) keep(record_.carriers[id].statuses, id);
+    if (watch == Watch::kStatuses) return;
     keep(record_.beacons, std::nullopt);
     keep(record_.load, std::nullopt);
     for (const CarrierId id : carriers) {
       CarrierRecord& carrier = record_.carriers[id];  // a map's elements stay where they are
       keep(carrier.setpoints, id);
       keep(carrier.states, id);
-      keep(carrier.statuses, id);
       keep(carrier.time_requests, id);
     }
   }

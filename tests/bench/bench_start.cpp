@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "common/base/text.hpp"
 #include "common/dds/clock.hpp"
 #include "common/mission/mission.hpp"
 #include "ground/flight/child_process.hpp"
@@ -93,6 +94,13 @@ std::optional<double> bare_start_s(int n, const std::string& home) {
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values.empty() ? 0.0 : values[values.size() / 2];
+}
+
+/// "0.52 (0.41 .. 0.60)"
+std::string described(const std::vector<double>& values) {
+  if (values.empty()) return "-";
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return gyre::text("%.2f (%.2f .. %.2f)", median(values), *least, *most);
 }
 
 double cpu_s(pid_t pid) {
@@ -172,7 +180,7 @@ int main() {
   };
 
   std::printf("From the first process to READY, median of %d (aim: within 1.2 times the floor):\n\n", kRounds);
-  std::printf("  %6s %14s %22s %8s\n", "agents", "Gyre, s", "bare Fast DDS star, s", "ratio");
+  std::printf("  %6s %24s %24s %8s\n", "agents", "Gyre, s", "bare Fast DDS star, s", "ratio");
   for (const int n : {4, 16, 48}) {
     std::vector<double> swarm;
     std::vector<double> bare;
@@ -181,7 +189,8 @@ int main() {
       if (const auto took = bare_start_s(n, home)) bare.push_back(*took);
     }
     if (swarm.size() < kRounds || bare.size() < kRounds) std::printf("  a start took longer than %.0f s\n", kLimit_s);
-    std::printf("  %6d %14.2f %22.2f %8.2f\n", n, median(swarm), median(bare), median(swarm) / median(bare));
+    std::printf("  %6d %24s %24s %8.2f\n", n, described(swarm).c_str(), described(bare).c_str(),
+                median(swarm) / median(bare));
     std::fflush(stdout);
   }
   std::printf("\nIn steady flight:\n\n");

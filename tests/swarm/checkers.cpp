@@ -96,7 +96,7 @@ double half_applied_bound(double duration_s) {
   return worst;
 }
 
-Checkers::Checkers(const LoadWithMotions& load, const Scenario& scenario) : load_(load), agents_(load.size()) {
+Checkers::Checkers(const LoadWithMotions& load, const Scenario& scenario) : agents_(load.size()) {
   const mechanics::Plan& first = load.motions.front();
   weight_n_ = first.load.mass_kg * first.gravity_m_s2;
   arms_w_m_ = lever_arms(first);

@@ -92,7 +92,6 @@ class Checkers {
   void check_clocks(const Moment& moment);
   void check_equilibrium(const Moment& moment, double half_applied, double pace_per_s);
 
-  const LoadWithMotions& load_;
   std::vector<Agent> agents_;
   std::vector<Eigen::Vector3d> attachments_w_m_, arms_w_m_;
   double weight_n_ = 0.0, arm_m_ = 0.0;

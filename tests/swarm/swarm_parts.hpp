@@ -12,6 +12,10 @@
 
 namespace gyre::swarm {
 
+inline constexpr Duration kObservation = std::chrono::milliseconds(20);
+/// After a fault ends, before the bounds that hold in calm may hold again.
+inline constexpr Duration kAftermath = std::chrono::seconds(1);
+
 struct Message {
   std::variant<protocol::Beacon, protocol::PlanOffer, protocol::HeldPlans, protocol::TimeRequest, protocol::TimeReply,
                protocol::AgentStatus, protocol::CarrierState, protocol::Command, coordinator::Retune,

@@ -1,0 +1,129 @@
+// What an observer sees of a virtual swarm, and the vehicles that only he and their agents see.
+
+#include <algorithm>
+
+#include "common/base/text.hpp"
+#include "simulator/core/extrapolation.hpp"
+#include "tests/swarm/swarm.hpp"
+#include "tests/swarm/swarm_parts.hpp"
+
+namespace gyre::swarm {
+
+namespace {
+
+/// A vehicle's state matters only to an agent that does not know it from its own setpoints.
+constexpr Duration kLeftAlone = std::chrono::milliseconds(40);
+/// DESIGN section 3: an agent that falls silent is named within this time.
+constexpr Duration kNamedWithin = std::chrono::milliseconds(500);
+constexpr Duration kLongestHeldBack = std::chrono::seconds(3);
+
+}  // namespace
+
+void Swarm::observe() {
+  schedule({now_ + kObservation, 0, Happening::kObservation, 0, 0, nullptr});
+  const Weather& w = network_.weather;
+  const bool bad = w.loss > 0.3 || w.bursts_per_s > 0.0 || w.overtaken > 0.0 || w.lies > 0.0 ||
+                   !network_.groups.empty() || coordinators_alive() != 1;
+  if (bad) checkers_.disturbed(now_ + kAftermath);
+  if (bad || w.garbage > 0.0) troubled_until_ = now_ + kLongestHeldBack;
+  tell_vehicle_states();
+  checkers_.instant(now_);
+  watch_losses();
+}
+
+void Swarm::hear_notice(const std::string& notice) {
+  const auto tells = [&notice](const std::string& what) { return notice.find(what) != std::string::npos; };
+  if (tells("turning back")) ++faults_.turned_back;
+  if (tells("freezing where")) ++faults_.frozen_for_loss;
+  if (loss_ && tells(text("agent %u is silent", processes_[loss_->process].carrier))) {
+    ++faults_.losses_named;
+    loss_.reset();
+  }
+}
+
+void Swarm::watch_losses() {
+  if (!loss_ || now_ - loss_->at <= kNamedWithin) return;
+  checkers_.report(Finding::Kind::kSafety, now_, "loss",
+                   text("agent %u is dead for %.2f s and nobody says so", processes_[loss_->process].carrier,
+                        seconds(now_ - loss_->at)));
+  loss_.reset();
+}
+
+protocol::CarrierState Swarm::vehicle_state(std::size_t agent) const {
+  const Vehicle& v = vehicles_[agent];
+  const auto w = simulator::extrapolate(seconds(now_ - v.since));
+  protocol::CarrierState s;
+  s.carrier = processes_[agent + kCoordinators].carrier;
+  s.position_w_m =
+      v.last.position_w_m + w.by_velocity * v.last.velocity_w_m_s + w.by_acceleration * v.last.acceleration_w_m_s2;
+  s.velocity_w_m_s = w.rate_by_velocity * v.last.velocity_w_m_s + w.rate_by_acceleration * v.last.acceleration_w_m_s2;
+  s.winch_length_m = v.last.winch_length_m + w.by_velocity * v.last.winch_rate_m_s;
+  s.winch_rate_m_s = w.rate_by_velocity * v.last.winch_rate_m_s;
+  s.cable_length_m = s.winch_length_m;
+  return s;
+}
+
+void Swarm::tell_vehicle_states() {
+  for (std::size_t p = kCoordinators; p < processes_.size(); ++p) {
+    if (!processes_[p].running() || !processes_[p].joined) continue;
+    const Vehicle& vehicle = vehicles_[p - kCoordinators];
+    if (processes_[p].sends_setpoints && now_ - vehicle.since < kLeftAlone) continue;
+    arrive(p, Message{vehicle_state(p - kCoordinators)});
+  }
+}
+
+bool Swarm::untroubled() const {
+  if (now_ < troubled_until_ || network_.weather.loss > 0.0) return false;
+  if (coordinators_alive() != 1 || coordinator()->term() == 0) return false;
+  return std::all_of(processes_.begin(), processes_.end(), [this](const Process& p) {
+    return (p.carrier == 0 || p.sends_setpoints) && now_ >= p.held_until + kNamedWithin;
+  });
+}
+
+std::size_t Swarm::coordinators_alive() const {
+  std::size_t alive = 0;
+  for (std::size_t c = 0; c < kCoordinators; ++c) alive += processes_[c].running() ? 1 : 0;
+  return alive;
+}
+
+const coordinator::Coordinator* Swarm::coordinator() const {
+  for (std::size_t c = 0; c < kCoordinators; ++c) {
+    if (processes_[c].running()) return processes_[c].coordinator.get();
+  }
+  return nullptr;
+}
+
+bool Swarm::agrees(Duration clock_bound, std::string* why) const {
+  const auto no = [why](const std::string& reason) {
+    *why = reason;
+    return false;
+  };
+  if (coordinators_alive() != 1) return no(text("%zu coordinators live", coordinators_alive()));
+  const auto disagreement = checkers_.disagreement();
+  if (!disagreement) return no("not every agent flies");
+  if (*disagreement > clock_bound) return no(text("the clocks differ by %.3g ms", 1e3 * seconds(*disagreement)));
+  for (const Process& p : processes_) {
+    if (p.running() && now_ < p.held_until) return no("somebody still hangs");
+  }
+  const coordinator::Coordinator& leader = *coordinator();
+  for (std::size_t p = kCoordinators; p < processes_.size(); ++p) {
+    const protocol::Course& course = processes_[p].agent->course();
+    if (course.revision != leader.course().revision || course.base.number != leader.course().base.number) {
+      return no(text("agent %u flies another course", processes_[p].carrier));
+    }
+  }
+  return leader.term() != 0 ? true : no("the coordinator has no term yet");
+}
+
+bool Swarm::at_rest() const {
+  const auto still = [](const Process& p) { return p.agent && p.agent->course().transitions.empty(); };
+  return std::all_of(processes_.begin() + kCoordinators, processes_.end(), still);
+}
+
+FaultCounts Swarm::faults() const {
+  FaultCounts out = faults_;
+  out.packets = network_.counts;
+  return out;
+}
+
+}  // namespace gyre::swarm

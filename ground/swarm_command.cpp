@@ -18,8 +18,10 @@ namespace {
 
 using protocol::CommandKind;
 
-/// A transition is answered when it is agreed: several rehearsals, on a busy machine.
-constexpr Duration kPatience = std::chrono::seconds(20);
+/// To find a coordinator at all.
+constexpr Duration kPatience = std::chrono::seconds(5);
+/// For its answer: a transition is answered when it is agreed, which takes several rehearsals on a busy machine.
+constexpr Duration kPatienceOnceFound = std::chrono::seconds(20);
 /// The reply's way back may be found after the command's way there, so the same command is said again, with its id.
 constexpr Duration kRepeat = std::chrono::milliseconds(250);
 
@@ -45,8 +47,10 @@ std::optional<protocol::CommandReply> ask(dds::Node& node, const protocol::Comma
   node.read<protocol::CommandReply>(
       [inbox](protocol::CommandReply reply, LocalTime) { inbox->push(std::move(reply)); });
   const auto writer = node.writer<protocol::Command>();
-  const LocalTime deadline = dds::now() + kPatience;
-  for (LocalTime next = dds::now(); next < deadline; next += kRepeat) {
+  const LocalTime begin = dds::now();
+  bool found = false;
+  for (LocalTime next = begin; next < begin + (found ? kPatienceOnceFound : kPatience); next += kRepeat) {
+    found = found || writer.readers() > 0;
     writer.write(command);
     for (const protocol::CommandReply& reply : inbox->wait_until(next + kRepeat)) {
       if (reply.id == command.id) return reply;

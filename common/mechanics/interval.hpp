@@ -22,6 +22,7 @@ struct NumTraits<gyre::mechanics::Interval> : GenericNumTraits<double> {
   using Real = gyre::mechanics::Interval;
   using NonInteger = gyre::mechanics::Interval;
   using Nested = gyre::mechanics::Interval;
+  // NOLINTBEGIN(readability-identifier-naming): Eigen's names
   enum {
     IsComplex = 0,
     IsInteger = 0,
@@ -31,5 +32,6 @@ struct NumTraits<gyre::mechanics::Interval> : GenericNumTraits<double> {
     AddCost = 2,
     MulCost = 8
   };
+  // NOLINTEND(readability-identifier-naming)
 };
 }  // namespace Eigen

@@ -43,7 +43,7 @@ const char* name(FlightPhase phase) {
   return "unknown";
 }
 
-FlightMonitor::FlightMonitor(std::vector<CarrierId> carriers, LocalTime now, const FlightPatience& patience)
+FlightMonitor::FlightMonitor(const std::vector<CarrierId>& carriers, LocalTime now, const FlightPatience& patience)
     : patience_(patience), begin_(now), simulator_(patience.silence), coordinator_(patience.silence) {
   for (const CarrierId id : carriers) agents_.emplace(id, Agent{protocol::Liveness(patience.silence), false, {}});
 }

@@ -34,7 +34,7 @@ struct FlightPatience {
 
 class FlightMonitor {
  public:
-  FlightMonitor(std::vector<CarrierId> carriers, LocalTime now, const FlightPatience& patience = {});
+  FlightMonitor(const std::vector<CarrierId>& carriers, LocalTime now, const FlightPatience& patience = {});
 
   void see(const protocol::Beacon& beacon, LocalTime arrived);
   void see(const protocol::AgentStatus& status, LocalTime arrived);

@@ -5,8 +5,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "common/mechanics/transition.hpp"
 #include "common/mechanics/rest_plan.hpp"
+#include "common/mechanics/transition.hpp"
 #include "simulator/core/planned_surroundings.hpp"
 #include "simulator/core/simulator.hpp"
 #include "tests/simulator/rigs.hpp"

@@ -73,7 +73,7 @@ TEST(BadUsage, IsTwoWithAMessageAndNoOutput) {
   const struct {
     std::string arguments;
     std::string complaint;
-  } kCases[] = {
+  } cases[] = {
       {"", "Usage: gyre"},
       {"chekc", "chekc"},
       {"check", "MISSION is required"},
@@ -86,7 +86,7 @@ TEST(BadUsage, IsTwoWithAMessageAndNoOutput) {
       {"sample --count 1000000000000 " + shipped("paper"), "--count"},
       {"sample --count many " + shipped("paper"), "--count"},
   };
-  for (const auto& bad : kCases) {
+  for (const auto& bad : cases) {
     const Answer answer = gyre(bad.arguments);
     EXPECT_EQ(answer.exit_code, 2) << bad.arguments;
     EXPECT_EQ(answer.output, "") << bad.arguments;

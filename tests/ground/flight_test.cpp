@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "common/mechanics/transition.hpp"
 #include "common/mechanics/rest_plan.hpp"
+#include "common/mechanics/transition.hpp"
 #include "common/mission/mission.hpp"
 #include "common/protocol/course.hpp"
 #include "ground/flight/flight_certificate.hpp"

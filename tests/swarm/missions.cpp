@@ -166,8 +166,8 @@ Plan too_fast(const Plan& plan) {
 }
 
 const std::vector<LoadWithMotions>& loads() {
-  static const std::vector<LoadWithMotions> made = make_loads();
-  return made;
+  static const std::vector<LoadWithMotions> kLoads = make_loads();
+  return kLoads;
 }
 
 }  // namespace gyre::swarm

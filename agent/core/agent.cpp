@@ -224,6 +224,7 @@ void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
     out.notices.push_back(
         {Notice::Level::kInfo, text("swarm time found, uncertain by %.3f ms", 1e3 * seconds(clock_.uncertainty(now)))});
     if (heard_) adopt(now, heard_->course, out);
+    out.status = status(now);  // the coordinator is waiting for that, too
   }
 }
 

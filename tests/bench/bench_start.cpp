@@ -72,7 +72,11 @@ std::optional<double> swarm_start_s(const FaultFlight::Options& options) {
   const gyre::LocalTime begin = gyre::dds::now();
   const auto flight = FaultFlight::start(options);
   if (!flight) return std::nullopt;
-  if (!FaultFlight::seconds_until(kLimit_s, [&] { return flight.value()->all_ready(); })) return std::nullopt;
+  // There are no vehicles here, which an agent asks for where it is; it waits for them when it is READY.
+  const auto ready = [](const gyre::protocol::AgentStatus& s) {
+    return !s.accepted.empty() && s.clock_uncertainty < std::chrono::seconds(1);
+  };
+  if (!FaultFlight::seconds_until(kLimit_s, [&] { return flight.value()->every_agent(ready); })) return std::nullopt;
   return gyre::seconds(gyre::dds::now() - begin);
 }
 

@@ -164,6 +164,7 @@ class Coordinator {
   std::optional<Mission> before_retune_;  ///< what is flown again if the retune that is being agreed is given up
   protocol::Course course_;
   std::optional<Agreement> agreement_;
+  std::vector<CarrierId> not_asked_;       ///< lost when the agreement began
   std::optional<std::uint64_t> starting_;  ///< transition whose start is still to be checked
 
   std::optional<LocalTime> listening_since_;

@@ -65,9 +65,11 @@ void Coordinator::offer_plans(Outputs& out) const {
 std::vector<CarrierId> Coordinator::unconfirmed(LocalTime now) const {
   const std::uint64_t id = agreement_->transition().id;
   const auto confirmed = [&](const protocol::AgentStatus& s) { return s.term == term_ && s.confirmed >= id; };
-  // A lost agent cannot be asked. Whether to fly on without it was decided by the mission's policy, or by a person.
+  // Who was lost before cannot be asked: whether to fly on without it was decided by the mission's policy, or by a
+  // person. Who is lost while this is agreed may be alive, and has not said whether it can fly it.
   // Nor can one be that does not know the plan in force: it follows when the transition is complete.
-  return without(without(fleet_.missing(now, confirmed), lost(now)), without_base(now));
+  const std::vector<CarrierId> back = without(not_asked_, lost(now));
+  return without(without(fleet_.missing(now, confirmed), without(not_asked_, back)), without_base(now));
 }
 
 /// Whom this coordinator hears of and cannot tell the plan in force.
@@ -188,6 +190,7 @@ void Coordinator::freeze(LocalTime now, SwarmTime moment, bool rehearsed, std::o
 }
 
 void Coordinator::begin(LocalTime now, Intent intent) {
+  not_asked_ = lost(now);
   agreement_.emplace(++last_transition_, intent, options_.agreement);
   agreement_->schedule(swarm_time(now), carriers_.size());
 }

@@ -30,7 +30,9 @@ double internal_n(const mechanics::CarrierSlice& slice) {
 }
 
 /// A coordinator that recovers learns swarm time from messages: as late as they were, and as wrong as their senders.
-constexpr Duration kRecoveryError = std::chrono::milliseconds(5);
+constexpr Duration kRecoveryError = std::chrono::milliseconds(50);
+/// Meanwhile the agents walk that off, each beginning when it noticed; what they claim does not know of it.
+constexpr Duration kRecovery = std::chrono::seconds(5);
 
 /// No carrier is further from its attachment in any motion.
 double reach_m_of(const LoadWithMotions& load) {
@@ -141,6 +143,7 @@ void Checkers::status(std::size_t agent, TrueTime now, const protocol::AgentStat
   Agent& a = agents_[agent];
   if (status.term < a.term)
     report(Finding::Kind::kSafety, now, "terms", text("agent %u went back to an older term", status.carrier));
+  if (status.term != a.term) a.term_since = now;
   a.term = status.term;
   a.uncertainty = status.clock_uncertainty;
 }
@@ -286,6 +289,8 @@ void Checkers::check_clocks(const Moment& m) {
   if (early.uncertainty == Duration::max() || late.uncertainty == Duration::max() || lies_) return;
   // They claim three standard deviations, which are exceeded now and then.
   Duration claimed = (early.uncertainty + late.uncertainty) * 13 / 10 + std::chrono::microseconds(20);
+  const auto settling = [&m](const Agent& a) { return m.at < a.term_since + kRecovery; };
+  if (std::any_of(agents_.begin(), agents_.end(), settling)) return;
   if (early.term != late.term) claimed += kRecoveryError;
   if (*disagreement_ > claimed) {
     report(Finding::Kind::kSafety, m.at, "clocks",

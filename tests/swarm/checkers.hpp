@@ -81,6 +81,7 @@ class Checkers {
     bool lives = false;
     std::optional<Sample> last, before;
     std::uint64_t term = 0;
+    TrueTime term_since{};
     Duration uncertainty = Duration::max();
     protocol::Course flown;
     double changed = 0.0;  ///< of the motion, from the setpoint before to the last one, by taking up another course

@@ -231,6 +231,7 @@ void Swarm::kill(std::size_t process) {
     checkers_.ends(process - kCoordinators);
   } else {
     ++faults_.coordinators_killed;
+    loss_.reset();  // nobody is left to name it
   }
   checkers_.disturbed(now_ + kAftermath);
   for (Channel& channel : channels_) {

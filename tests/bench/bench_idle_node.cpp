@@ -7,8 +7,6 @@
 //
 // Run both; each prints what it cost. Written against Fast DDS itself, so that nothing of common/dds is in the floor.
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
 #include <gyre_idl/gyre_msgs.h>
 #include <gyre_idl/gyre_msgsPubSubTypes.h>
 #include <sys/resource.h>
@@ -33,36 +31,16 @@
 #include <thread>
 #include <vector>
 
+#include "tests/bench/bare_participant.hpp"
+
 namespace {
 
+using gyre::bench::open_bare_participant;
 namespace fast = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
 namespace idl = gyre_msgs::msg;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kTicksPerSecond = 100;
-
-fast::DomainParticipant* open_participant(int domain, int participant) {
-  auto* factory = fast::DomainParticipantFactory::get_instance();
-  fast::DomainParticipantQos qos = factory->get_default_participant_qos();
-  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-  udp->interfaceWhiteList.push_back("127.0.0.1");
-  udp->maxInitialPeersRange = 4;
-  udp->sendBufferSize = udp->receiveBufferSize = 1U << 20U;
-  qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports.push_back(udp);
-  rtps::Locator_t loopback;
-  loopback.kind = LOCATOR_KIND_UDPv4;
-  rtps::IPLocator::setIPv4(loopback, "127.0.0.1");
-  auto& builtin = qos.wire_protocol().builtin;
-  builtin.metatrafficUnicastLocatorList.push_back(loopback);
-  builtin.initialPeersList.push_back(loopback);
-  builtin.discovery_config.leaseDuration = {2, 0};
-  builtin.discovery_config.leaseDuration_announcementperiod = {0, 500'000'000};
-  builtin.discovery_config.initial_announcements.count = 20;
-  qos.wire_protocol().participant_id = participant;
-  return factory->create_participant(static_cast<std::uint32_t>(domain), qos, nullptr, fast::StatusMask::none());
-}
 
 template <class Support>
 fast::Topic* topic(fast::DomainParticipant& participant, const char* name) {
@@ -203,7 +181,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   const bool agent = arguments[0] == "agent";
-  fast::DomainParticipant* const participant = open_participant(domain, agent ? 4 : 0);
+  fast::DomainParticipant* const participant = open_bare_participant(domain, agent ? 4 : 0);
   if (!participant) return 1;
   auto* const publisher = participant->create_publisher(fast::PUBLISHER_QOS_DEFAULT);
   auto* const subscriber = participant->create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT);

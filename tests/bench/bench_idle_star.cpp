@@ -6,8 +6,6 @@
 //
 // Both run until they are killed. Written against Fast DDS itself, so that nothing of common/dds is in the floor.
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
 #include <gyre_idl/gyre_msgs.h>
 #include <gyre_idl/gyre_msgsPubSubTypes.h>
 #include <unistd.h>
@@ -29,38 +27,18 @@
 #include <thread>
 #include <vector>
 
+#include "tests/bench/bare_participant.hpp"
+
 namespace {
 
+using gyre::bench::open_bare_participant;
 namespace fast = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
 namespace idl = gyre_msgs::msg;
-
-fast::DomainParticipant* open_participant(int participant) {
-  auto* factory = fast::DomainParticipantFactory::get_instance();
-  fast::DomainParticipantQos qos = factory->get_default_participant_qos();
-  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-  udp->interfaceWhiteList.push_back("127.0.0.1");
-  udp->maxInitialPeersRange = 4;
-  udp->sendBufferSize = udp->receiveBufferSize = 1U << 20U;
-  qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports.push_back(udp);
-  rtps::Locator_t loopback;
-  loopback.kind = LOCATOR_KIND_UDPv4;
-  rtps::IPLocator::setIPv4(loopback, "127.0.0.1");
-  auto& builtin = qos.wire_protocol().builtin;
-  builtin.metatrafficUnicastLocatorList.push_back(loopback);
-  builtin.initialPeersList.push_back(loopback);
-  builtin.discovery_config.leaseDuration = {20, 0};
-  builtin.discovery_config.leaseDuration_announcementperiod = {0, 500'000'000};
-  builtin.discovery_config.initial_announcements.count = 20;
-  qos.wire_protocol().participant_id = participant;
-  return factory->create_participant(0, qos, nullptr, fast::StatusMask::none());
-}
 
 class Star {
  public:
   explicit Star(int participant)
-      : participant_(open_participant(participant)),
+      : participant_(open_bare_participant(0, participant)),
         publisher_(participant_->create_publisher(fast::PUBLISHER_QOS_DEFAULT)),
         subscriber_(participant_->create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT)) {}
 

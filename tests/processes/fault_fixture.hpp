@@ -1,0 +1,164 @@
+#pragma once
+// What every fault flight needs: a network of its own, a flight in it, and a row of the loss table at the end.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/base/text.hpp"
+#include "tests/processes/fault_flight.hpp"
+#include "tests/processes/flight_figures.hpp"
+#include "tests/processes/launched.hpp"
+#include "tests/processes/private_network.hpp"
+
+namespace gyre::test {
+
+inline constexpr double kStart_s = 40.0;  // a bound, not a measure
+inline constexpr double kRecovery_s = 20.0;
+
+/// What has to hold while messages are lost, clocks are wrong, or the coordinator is gone.
+inline constexpr double kUnmoved_m = 1e-3;
+inline constexpr double kUnturned_deg = 0.1;
+inline constexpr double kNoPositionStep_m = 2e-5;
+inline constexpr double kNoVelocityStep_m_s = 2e-3;
+/// What is left of the load's swing when everybody does again what he should: nothing damps it but the cables.
+inline constexpr double kSwing_m = 0.03;
+
+/// A carrier that hears no agent coasts for 3 s. How far the others have gone by then is what the load feels, so the
+/// rate of such flights is a real one's.
+inline constexpr double kRate_rad_s = 0.1;
+
+struct Row {
+  std::string event;
+  LoadFigures load;
+  SetpointFigures setpoints;
+  std::string remark;
+};
+
+class LossTable : public testing::Environment {
+ public:
+  static std::vector<Row>& rows() {
+    static std::vector<Row> rows;
+    return rows;
+  }
+  void TearDown() override {
+    if (rows().empty()) return;
+    std::printf(
+        "\n| event | load moved, mm | load turned, deg | setpoint step, um | in velocity, mm/s | what happened |\n");
+    std::printf("|---|---|---|---|---|---|\n");
+    for (const Row& row : rows()) {
+      std::printf("| %s | %.3f | %.4f | %.2f | %.3f | %s |\n", row.event.c_str(), 1e3 * row.load.displacement_max_m,
+                  row.load.rotation_max_deg, 1e6 * row.setpoints.position_step_max_m,
+                  1e3 * row.setpoints.velocity_step_max_m_s, row.remark.c_str());
+    }
+    std::printf("\n");
+  }
+};
+
+inline void wait(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+class FaultTest : public ProgramsTest {
+ protected:
+  void SetUp() override {
+    // This program starts no thread before its first flight.
+    static Result<PrivateNetwork> entered = PrivateNetwork::enter();
+    if (!entered) GTEST_SKIP() << entered.error().text;
+    network_.emplace(entered.value());
+    network_->heal();
+  }
+  void TearDown() override {
+    flight_.reset();
+    ProgramsTest::TearDown();
+  }
+
+  static std::string mission() { return std::string(GYRE_SOURCE_DIR) + "/tests/processes/missions/faults.textproto"; }
+  /// The same mission at another rate, and with another policy.
+  [[nodiscard]] std::string mission_at(double rate_rad_s, const std::string& agent_loss) const {
+    std::ostringstream text;
+    text << std::ifstream(mission()).rdbuf() << "agent_loss: " << agent_loss << "\n";
+    std::string words = text.str();
+    const std::string before = "rate_rad_s: 1";
+    words.replace(words.find(before), before.size(), "rate_rad_s: " + std::to_string(rate_rad_s));
+    std::string path = directory() + "/variant.textproto";
+    std::ofstream(path) << words;
+    return path;
+  }
+
+  void start(const std::string& mission, const std::map<std::string, ClockFault>& clocks = {}, bool engage = true) {
+    auto started = FaultFlight::start({mission, directory(), GYRE_BIN_DIR, clocks, engage});
+    ASSERT_TRUE(started) << started.error().text;
+    flight_ = std::move(started).value();
+  }
+  void fly() {
+    const auto took = FaultFlight::seconds_until(kStart_s, [&] { return flight_->all_flying(); });
+    ASSERT_TRUE(took) << "the motion did not begin\n" << flight_->said_by_all();
+  }
+  void fly(const std::string& mission, const std::map<std::string, ClockFault>& clocks = {}) {
+    ASSERT_NO_FATAL_FAILURE(start(mission, clocks));
+    ASSERT_NO_FATAL_FAILURE(fly());
+  }
+  /// The coordinator is asked to end the flight: back to rest, and good-bye.
+  void land() {
+    flight_->send("coordinator", SIGTERM);
+    const auto took = FaultFlight::seconds_until(kRecovery_s, [&] {
+      return flight_->said("coordinator").find("the flight has ended at rest") != std::string::npos;
+    });
+    EXPECT_TRUE(took) << flight_->said("coordinator");
+  }
+
+  /// This program hears everything, whatever is lost: the instrument is not part of the experiment.
+  static std::vector<std::uint16_t> instrument() { return udp_ports(::getpid()); }
+  /// The way from an agent to its vehicle is on board: the radio may be out, it is not.
+  [[nodiscard]] std::vector<std::uint16_t> instrument_and_vehicles() const {
+    std::vector<std::uint16_t> ports = instrument();
+    for (const std::uint16_t port : udp_ports(flight_->pid("simulator"))) ports.push_back(port);
+    return ports;
+  }
+
+  Row& measure(const std::string& event, const std::string& remark) {
+    const auto figures = [&](const FlightRecord& record) {
+      return Row{event, load_figures(record, flight_->mission().plan.load), setpoint_figures(record), remark};
+    };
+    LossTable::rows().push_back(flight_->observer().ask(figures));
+    return LossTable::rows().back();
+  }
+  /// The load does not notice, and no setpoint steps.
+  void expect_unmoved(const Row& row) {
+    EXPECT_LT(row.load.displacement_max_m, kUnmoved_m);
+    EXPECT_LT(row.load.rotation_max_deg, kUnturned_deg);
+    expect_continuous(row);
+  }
+  void expect_continuous(const Row& row) {
+    EXPECT_LT(row.setpoints.position_step_max_m, kNoPositionStep_m);
+    EXPECT_LT(row.setpoints.velocity_step_max_m_s, kNoVelocityStep_m_s);
+    EXPECT_EQ(row.setpoints.backwards, 0);
+    if (HasFailure()) std::printf("%s\n", flight_->said_by_all().c_str());
+  }
+
+  [[nodiscard]] std::string lost_packets() const { return std::to_string(network_->lost()) + " packets"; }
+
+  [[nodiscard]] bool nobody_alone() const {
+    return flight_->every_agent([](const protocol::AgentStatus& s) { return s.state != protocol::AgentState::kAlone; });
+  }
+  [[nodiscard]] bool all_follow_a_term_above(std::uint64_t term) const {
+    return flight_->every_agent([&](const protocol::AgentStatus& s) { return s.term > term; });
+  }
+
+  std::optional<PrivateNetwork> network_;
+  std::unique_ptr<FaultFlight> flight_;
+};
+
+}  // namespace gyre::test

@@ -222,12 +222,17 @@ void Coordinator::listen(LocalTime now, Outputs& out) {
     tell(out, Notice::Level::kInfo,
          text("mission \"%s\": listening for %zu agents", job_.name.c_str(), carriers_.size()));
   }
-  // Once everybody was heard, with every plan of the course if there is one, there is nothing left to learn.
-  const auto known = [this](const protocol::AgentStatus& s) { return recovery_.complete_for(s.carrier); };
-  if (!fleet_.missing(now, known).empty() && now - *listening_since_ < options_.listening) return;
   // A swarm begins with everybody: whoever was not heard may fly out there, by a swarm time that is not this one's.
   const std::vector<CarrierId> unheard = this->unheard();
-  if (!recovery_.course() && !unheard.empty()) {
+  if (recovery_.course()) {
+    if (!recovering_since_) recovering_since_ = now;
+    // The first word of an agent may have been long on its way, and swarm time is as late as the freshest of them. Once
+    // everybody was heard, with every plan of the course, there is nothing left to learn.
+    const auto known = [this](const protocol::AgentStatus& s) { return recovery_.complete_for(s.carrier); };
+    const bool complete = fleet_.missing(now, known).empty();
+    if (now - *recovering_since_ < (complete ? options_.listening_least : options_.listening)) return;
+  } else if (!unheard.empty()) {
+    if (now - *listening_since_ < options_.listening) return;
     const std::string told = "waiting for " + list(unheard) + ": a flight begins with all";
     if (told != news_) tell(out, Notice::Level::kInfo, told);
     return;

@@ -43,9 +43,10 @@ struct CoordinatorOptions {
   bool engage_when_ready = false;  ///< start the motion as soon as every agent has accepted
   Duration beacon_period = std::chrono::milliseconds(20);
   Duration status_period = std::chrono::milliseconds(500);
-  Duration agent_timeout = std::chrono::milliseconds(450);  ///< an agent is named silent
-  Duration loss_timeout = std::chrono::seconds(1);          ///< a silent agent is lost, and the policy acts
-  Duration listening = std::chrono::milliseconds(1500);     ///< for a swarm that already flies
+  Duration agent_timeout = std::chrono::milliseconds(450);    ///< an agent is named silent
+  Duration loss_timeout = std::chrono::seconds(1);            ///< a silent agent is lost, and the policy acts
+  Duration listening = std::chrono::milliseconds(1500);       ///< to a swarm that already flies, since its first word
+  Duration listening_least = std::chrono::milliseconds(350);  ///< to it, even when all was said: a few words of each
   Duration shortest_transition = std::chrono::seconds(5);
   Duration freezing = std::chrono::seconds(2);
   Duration turning_back = std::chrono::seconds(2);
@@ -168,6 +169,7 @@ class Coordinator {
   std::optional<std::uint64_t> starting_;  ///< transition whose start is still to be checked
 
   std::optional<LocalTime> listening_since_;
+  std::optional<LocalTime> heard_since_;      ///< somebody, while listening
   std::optional<LocalTime> heard_nobody_at_;  ///< the last time that everybody was silent
   LocalTime term_since_{};
   LocalTime next_tick_ = LocalTime::min();  // a clock may well begin below zero

@@ -233,8 +233,6 @@ void Agent::on(LocalTime now, const protocol::CarrierState& state, Outputs& /*ou
     ++dropped_.nonsense;
     return;
   }
-  // Whom we did not hear has hardly heard us: it has gone on by itself.
-  if (flown_at_ && vehicle_ && now - vehicle_heard_ > options_.stall) awake_since_ = now;
   vehicle_ = state;
   vehicle_heard_ = now;
 }

@@ -32,8 +32,10 @@ struct AgentOptions {
   Duration beacon_age_max = std::chrono::seconds(1);  ///< and what this clock may be wrong by
   /// A restarted agent waits so long for its vehicle to tell where it is, rather than fly a step.
   Duration vehicle_wait = std::chrono::milliseconds(500);
-  /// Without a tick or a word of its vehicle for so long, its vehicle is not where the last setpoint leads any more.
-  Duration stall = std::chrono::milliseconds(200);
+  /// Without a tick for so long, it was suspended, and its vehicle may not be where the last setpoint leads any more.
+  /// No shorter: on a busy machine the vehicle's states are late as well, and a short silence is bridged without a
+  /// step.
+  Duration stall = std::chrono::milliseconds(500);
   /// After that it listens so long before it believes where the vehicle is: old states have waited for it.
   Duration backlog = std::chrono::milliseconds(50);
   protocol::TimekeeperOptions timekeeper;

@@ -376,23 +376,6 @@ TEST_F(AgentTest, AfterALongStallItBeginsWhereItsCarrierHasGone) {
   EXPECT_LT((setpoint_->position_w_m - planned).norm(), 1e-9);
 }
 
-TEST_F(AgentTest, AfterTheVehicleWasMuteItBeginsWhereItsCarrierHasGone) {
-  rest();
-  const auto vehicle = vehicle_;
-  vehicle_.reset();
-  fly(seconds(2));
-  vehicle_ = vehicle;
-  vehicle_->position_w_m += Eigen::Vector3d(0.1, -0.05, 0.02);
-  std::optional<protocol::Setpoint> first;
-  fly(milliseconds(10));
-  visit_ = [&](const protocol::Setpoint& s) {
-    if (!first) first = s;
-  };
-  fly(milliseconds(200));
-  ASSERT_TRUE(first);
-  EXPECT_LT((first->position_w_m - vehicle_->position_w_m).norm(), 1e-9);
-}
-
 TEST_F(AgentTest, AfterALongStallAMuteVehicleIsNotWaitedForForEver) {
   rest();
   vehicle_.reset();

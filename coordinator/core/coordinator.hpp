@@ -169,8 +169,8 @@ class Coordinator {
   std::optional<std::uint64_t> starting_;  ///< transition whose start is still to be checked
 
   std::optional<LocalTime> listening_since_;
-  std::optional<LocalTime> heard_since_;      ///< somebody, while listening
-  std::optional<LocalTime> heard_nobody_at_;  ///< the last time that everybody was silent
+  std::optional<LocalTime> recovering_since_;  ///< the first word of a swarm that flies
+  std::optional<LocalTime> heard_nobody_at_;   ///< the last time that everybody was silent
   LocalTime term_since_{};
   LocalTime next_tick_ = LocalTime::min();  // a clock may well begin below zero
   LocalTime next_status_ = LocalTime::min();

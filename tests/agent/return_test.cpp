@@ -1,0 +1,81 @@
+// How an agent comes back: after a stall, after a restart, never with a step.
+
+#include <gtest/gtest.h>
+
+#include "tests/agent/one_agent.hpp"
+
+namespace gyre::agent {
+namespace {
+
+TEST_F(AgentTest, AStallIsNotMadeUpFor) {
+  rest();
+  const std::uint64_t before = setpoint_->sequence;
+  now_ += milliseconds(150);
+  const Outputs first = tell(Tick{});
+  EXPECT_EQ(first.next_tick, now_ + milliseconds(10));
+  for (int i = 0; i < 100; ++i) tell(Tick{});
+  EXPECT_EQ(setpoint_->sequence, before + 1);
+}
+
+TEST_F(AgentTest, AfterALongStallItBeginsWhereItsCarrierHasGone) {
+  rest();
+  const Eigen::Vector3d planned = setpoint_->position_w_m;
+  now_ += seconds(2);
+  const std::uint64_t before = setpoint_->sequence;
+  tell(*vehicle_);  // said before the stall, and heard only now
+  tell(Tick{});
+  EXPECT_EQ(setpoint_->sequence, before) << "it does not know yet where its vehicle is";
+  vehicle_->position_w_m += Eigen::Vector3d(0.1, -0.05, 0.02);
+  std::optional<protocol::Setpoint> first;
+  visit_ = [&](const protocol::Setpoint& s) {
+    if (!first) first = s;
+  };
+  fly(milliseconds(200));
+  ASSERT_TRUE(first);
+  EXPECT_LT((first->position_w_m - vehicle_->position_w_m).norm(), 1e-9);
+  fly(seconds(10));
+  EXPECT_LT((setpoint_->position_w_m - planned).norm(), 1e-9);
+}
+
+TEST_F(AgentTest, AfterALongStallAMuteVehicleIsNotWaitedForForEver) {
+  rest();
+  vehicle_.reset();
+  now_ += seconds(2);
+  const std::uint64_t before = setpoint_->sequence;
+  fly(seconds(1));
+  EXPECT_GT(setpoint_->sequence, before);
+}
+
+TEST_F(AgentTest, RestartedInFlightItBeginsWhereItsCarrierIs) {
+  rest();
+  vehicle_->position_w_m += Eigen::Vector3d(0.3, -0.2, 0.1);
+  vehicle_->velocity_w_m_s = Eigen::Vector3d(0.2, 0.1, 0.0);
+  restart(3);
+  setpoint_.reset();
+  std::optional<protocol::Setpoint> first;
+  course_->transitions.clear();
+  course_->base = {kMotion, swarm() - seconds(7)};
+  offer({kRest, kMotion, kOther});
+  visit_ = [&](const protocol::Setpoint& s) {
+    if (!first) first = s;
+  };
+  fly(milliseconds(500));
+  ASSERT_TRUE(first);
+  EXPECT_LT((first->position_w_m - vehicle_->position_w_m).norm(), 0.01);
+  watch_for_steps();
+  fly(seconds(20));
+  const auto r = reference(kMotion, course_->base.epoch);
+  EXPECT_LT((setpoint_->position_w_m - r.position_w_m.value).norm(), 1e-9);
+}
+
+TEST_F(AgentTest, RestartedItWaitsForItsVehicleButNotForEver) {
+  offer({kRest, kMotion});
+  course_ = Course{1, {kMotion, swarm()}, {}};
+  fly(milliseconds(400));
+  EXPECT_FALSE(setpoint_) << "where the carrier is, is not known yet";
+  fly(milliseconds(400));
+  EXPECT_TRUE(setpoint_);
+}
+
+}  // namespace
+}  // namespace gyre::agent

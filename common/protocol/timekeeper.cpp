@@ -91,6 +91,9 @@ bool Timekeeper::follow(LocalTime local, double measured_ns, double delay_ns) {
 
 void Timekeeper::doubt(Duration error) {
   covariance_[0][0] += nanoseconds(error) * nanoseconds(error);
+  // Another coordinator may run on another machine, whose quartz drifts otherwise.
+  const double drift_sigma = options_.drift_max / 3.0;
+  covariance_[1][1] += drift_sigma * drift_sigma;
 }
 
 void Timekeeper::start(LocalTime local, double offset_ns, double delay_ns) {

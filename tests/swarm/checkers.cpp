@@ -288,7 +288,7 @@ void Checkers::check_clocks(const Moment& m) {
   const Agent& late = agents_[static_cast<std::size_t>(most - m.clocks.begin())];
   if (early.uncertainty == Duration::max() || late.uncertainty == Duration::max() || lies_) return;
   // They claim three standard deviations, which are exceeded now and then.
-  Duration claimed = (early.uncertainty + late.uncertainty) * 3 / 2 + std::chrono::microseconds(20);
+  Duration claimed = (early.uncertainty + late.uncertainty) * 13 / 10 + std::chrono::microseconds(20);
   const auto settling = [&m](const Agent& a) { return m.at < a.term_since + kRecovery; };
   if (std::any_of(agents_.begin(), agents_.end(), settling)) return;
   if (early.term != late.term) claimed += kRecoveryError;

@@ -21,7 +21,7 @@ constexpr double kPacePeak = 1.875;
 constexpr double kBendPeak = 5.7735;
 /// Of the clock that is read, by rounding and by reading it at two moments of one step.
 /// A vehicle is then on its own (agent options: stall), and its agent no longer knows where it is.
-constexpr double kSilence_s = 0.3;
+const double kSilence_s = seconds(agent::AgentOptions{}.stall) + 0.05;
 constexpr double kSwarmTimeJump_s = 2e-6;
 
 double internal_n(const mechanics::CarrierSlice& slice) {

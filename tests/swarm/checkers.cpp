@@ -21,7 +21,7 @@ constexpr double kPacePeak = 1.875;
 constexpr double kBendPeak = 5.7735;
 /// Of the clock that is read, by rounding and by reading it at two moments of one step.
 /// A vehicle is then on its own (agent options: stall), and its agent no longer knows where it is.
-const double kSilence_s = seconds(agent::AgentOptions{}.stall) + 0.05;
+const double kSilenceSeconds = seconds(agent::AgentOptions{}.stall) + 0.05;
 constexpr double kSwarmTimeJump_s = 2e-6;
 
 double internal_n(const mechanics::CarrierSlice& slice) {
@@ -151,7 +151,7 @@ void Checkers::status(std::size_t agent, TrueTime now, const protocol::AgentStat
 void Checkers::setpoint(std::size_t agent, TrueTime now, const protocol::Setpoint& setpoint,
                         const protocol::CarrierState& vehicle, const protocol::Course& course) {
   Agent& a = agents_[agent];
-  if (!a.last || seconds(now - a.last->at) > kSilence_s) check_return(now, setpoint, vehicle);
+  if (!a.last || seconds(now - a.last->at) > kSilenceSeconds) check_return(now, setpoint, vehicle);
   ++extremes_.setpoints;
   a.before = a.last;
   a.last = Sample{now, setpoint};

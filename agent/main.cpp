@@ -2,18 +2,15 @@
 
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 
 #include "agent/core/agent.hpp"
 #include "agent/vehicle/vehicle_options.hpp"
 #include "common/base/interrupts.hpp"
 #include "common/base/log.hpp"
-#include "common/dds/clock_options.hpp"
 #include "common/dds/health_reporter.hpp"
 #include "common/dds/inbox.hpp"
-#include "common/dds/network_options.hpp"
+#include "common/program/program.hpp"
 
 namespace {
 
@@ -21,9 +18,8 @@ using gyre::LocalTime;
 using gyre::agent::Agent;
 using gyre::agent::Event;
 using gyre::agent::Outputs;
+namespace program = gyre::program;
 namespace protocol = gyre::protocol;
-
-enum ExitCode { kGood = 0, kFailed = 1, kBadUsage = 2 };
 
 /// The wire side: what the agent hears goes into the inbox, what it says goes out through the writers.
 class Wire {
@@ -56,7 +52,10 @@ class Wire {
     if (out.status) status_.write(*out.status);
   }
 
-  void report_health(const protocol::DropCounts& dropped) { health_.step(gyre::dds::now(), dropped, inbox_.dropped()); }
+  void report_health(const Agent& agent) {
+    const LocalTime now = gyre::dds::now();
+    health_.step(now, agent.complaint(now), agent.dropped(), inbox_.dropped());
+  }
 
  private:
   gyre::dds::Inbox<Event> inbox_;  // outlives the node, whose handlers fill it
@@ -69,19 +68,11 @@ class Wire {
 };
 
 int run(const gyre::agent::AgentOptions& options, const gyre::dds::NetworkOptions& network) {
-  const auto node_options = gyre::dds::node_options(network, {std::nullopt, options.carrier});
-  if (!node_options) {
-    spdlog::error("{}", node_options.error().text);
-    return kBadUsage;
-  }
-  auto node = gyre::dds::Node::open(node_options.value());
-  if (!node) {
-    spdlog::error("{}", node.error().text);
-    return kFailed;
-  }
+  auto node = program::open_node(network, {std::nullopt, options.carrier});
+  if (!node) return node.error();
   Agent agent(options);
+  spdlog::info("carrier {}: waiting for a coordinator on domain {}", options.carrier, node.value()->domain());
   Wire wire(std::move(node).value(), options.carrier);
-  spdlog::info("carrier {}: waiting for a coordinator on domain {}", options.carrier, node_options.value().domain);
 
   LocalTime next_tick = gyre::dds::now();
   const auto step = [&](const Event& event) {
@@ -90,14 +81,14 @@ int run(const gyre::agent::AgentOptions& options, const gyre::dds::NetworkOption
     gyre::log(out.notices);
     next_tick = out.next_tick;
   };
-  while (gyre::take_interrupts() == 0) {
+  while (gyre::take_interrupts().total() == 0) {
     for (const Event& event : wire.sleep_until(next_tick)) step(event);
     agent.count_undecodable(wire.undecodable());
     step(gyre::agent::Tick{});
-    wire.report_health(agent.dropped());
+    wire.report_health(agent);
   }
   spdlog::info("carrier {}: ended on request", options.carrier);
-  return kGood;
+  return program::kGood;
 }
 
 }  // namespace
@@ -107,30 +98,16 @@ int main(int argc, char** argv) {
   CLI::App app{"Flies one carrier: keeps swarm time, evaluates its own setpoint, refuses what it cannot fly.",
                "gyre-agent"};
   gyre::agent::AgentOptions options;
-  std::string log_level = "info";
-  gyre::dds::NetworkOptions network;
-  gyre::dds::ClockOptions clock;
+  program::Options common;
   app.add_option("--carrier", options.carrier, "this carrier's id in the mission, 1 to 100")
       ->required()
       ->check(CLI::Range(gyre::CarrierId{1}, gyre::kMaxCarrierId))
       ->envname("GYRE_CARRIER");
-  app.add_option("--log-level", log_level, "trace, debug, info, warning, error or off")
-      ->envname("GYRE_LOG_LEVEL")
-      ->capture_default_str();
   gyre::agent::add_vehicle_options(app, options.vehicle);
-  gyre::dds::add_network_options(app, network);
-  gyre::dds::add_clock_options(app, clock);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? kGood : kBadUsage;
-  }
-  if (const auto started = gyre::start_log("gyre-agent " + std::to_string(options.carrier), log_level); !started) {
-    std::fprintf(stderr, "%s\n", started.error().text.c_str());
-    return kBadUsage;
-  }
-  gyre::log(gyre::dds::apply(clock));
+  program::add_options(app, common);
+  if (const auto answer = program::parse(app, argc, argv)) return *answer;
+  if (const auto answer = program::start("gyre-agent " + std::to_string(options.carrier), common)) return *answer;
   // The moment of the start tells one life of this agent from the next.
   options.incarnation = static_cast<std::uint64_t>(gyre::dds::now().time_since_epoch().count());
-  return run(options, network);
+  return run(options, common.network);
 }

@@ -2,7 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -10,12 +9,11 @@
 
 #include "common/base/interrupts.hpp"
 #include "common/base/log.hpp"
-#include "common/dds/clock_options.hpp"
 #include "common/dds/health_reporter.hpp"
 #include "common/dds/inbox.hpp"
-#include "common/dds/network_options.hpp"
 #include "common/mechanics/certificate.hpp"
 #include "common/mission/mission.hpp"
+#include "common/program/program.hpp"
 #include "coordinator/core/coordinator.hpp"
 
 namespace {
@@ -25,9 +23,8 @@ using gyre::coordinator::Coordinator;
 using gyre::coordinator::Event;
 using gyre::coordinator::Outcome;
 using gyre::coordinator::Outputs;
+namespace program = gyre::program;
 namespace protocol = gyre::protocol;
-
-enum ExitCode { kGood = 0, kRefused = 1, kBadUsage = 2 };
 
 gyre::coordinator::Job job_of(const gyre::mission::Mission& mission) {
   gyre::coordinator::Job job;
@@ -90,7 +87,10 @@ class Wire {
     for (const protocol::CommandReply& reply : out.replies) replies_.write(reply);
   }
 
-  void report_health(const protocol::DropCounts& dropped) { health_.step(gyre::dds::now(), dropped, inbox_.dropped()); }
+  void report_health(const Coordinator& coordinator) {
+    const LocalTime now = gyre::dds::now();
+    health_.step(now, coordinator.complaint(now), coordinator.dropped(), inbox_.dropped());
+  }
 
  private:
   gyre::dds::Inbox<Event> inbox_;  // outlives the node, whose handlers fill it
@@ -116,8 +116,11 @@ Outcome conduct(Coordinator& coordinator, Wire& wire) {
   for (int interrupts = 0; !finished;) {
     for (const Event& event : wire.sleep_until(next_tick)) step(understood(event));
     step(gyre::coordinator::Tick{});
-    wire.report_health(coordinator.dropped());
-    for (int more = gyre::take_interrupts(); more > 0; --more) {
+    wire.report_health(coordinator);
+    const gyre::Interrupts asked = gyre::take_interrupts();
+    // A service that is restarted or moved: the agents fly on, and whoever starts next learns all from them.
+    if (asked.by_system > 0) return {true, "ended as the system asked; the agents fly on"};
+    for (int more = asked.by_person; more > 0; --more) {
       if (++interrupts > 1) return {false, "interrupted twice: ended at once, the load is left as it is"};
       step(gyre::coordinator::Shutdown{});
     }
@@ -129,24 +132,16 @@ int run(const std::string& path, const gyre::dds::NetworkOptions& network, bool 
   const auto mission = gyre::mission::read_mission_file(path);
   if (!mission) {
     std::fprintf(stderr, "%s\n", mission.error().text.c_str());
-    return kBadUsage;
+    return program::kBadUsage;
   }
   const gyre::mechanics::Certificate certificate = gyre::mechanics::certify(mission.value().plan);
   for (const gyre::mechanics::Reason& reason : certificate.reasons) {
     spdlog::error("refused: {}: {}", name(reason.rule), reason.text);
   }
-  if (!certificate.admissible()) return kRefused;
+  if (!certificate.admissible()) return program::kFailed;
 
-  const auto options = gyre::dds::node_options(network, {gyre::dds::Hub::kCoordinator, std::nullopt});
-  if (!options) {
-    spdlog::error("{}", options.error().text);
-    return kBadUsage;
-  }
-  auto node = gyre::dds::Node::open(options.value());
-  if (!node) {
-    spdlog::error("{}", node.error().text);
-    return kRefused;
-  }
+  auto node = program::open_node(network, {gyre::dds::Hub::kCoordinator, std::nullopt});
+  if (!node) return node.error();
   gyre::coordinator::CoordinatorOptions coordinator_options;
   coordinator_options.nonce = std::random_device{}();
   coordinator_options.engage_when_ready = engage;
@@ -155,7 +150,7 @@ int run(const std::string& path, const gyre::dds::NetworkOptions& network, bool 
   Wire wire(std::move(node).value(), mission.value().plan);
   const Outcome outcome = conduct(coordinator, wire);
   spdlog::log(outcome.clean ? spdlog::level::info : spdlog::level::err, "{}", outcome.text);
-  return outcome.clean ? kGood : kRefused;
+  return outcome.clean ? program::kGood : program::kFailed;
 }
 
 }  // namespace
@@ -165,26 +160,12 @@ int main(int argc, char** argv) {
   CLI::App app{"Owns the mission: certifies it, keeps swarm time, beacons the phase, agrees transitions.",
                "gyre-coordinator"};
   std::string mission;
-  std::string log_level = "info";
   bool engage = false;
-  gyre::dds::NetworkOptions network;
-  gyre::dds::ClockOptions clock;
-  app.add_option("MISSION", mission, "mission file (protobuf text format)")->required();
+  program::Options options;
+  program::add_mission(app, mission);
   app.add_flag("--engage", engage, "start the motion as soon as every agent is ready")->envname("GYRE_ENGAGE");
-  app.add_option("--log-level", log_level, "trace, debug, info, warning, error or off")
-      ->envname("GYRE_LOG_LEVEL")
-      ->capture_default_str();
-  gyre::dds::add_network_options(app, network);
-  gyre::dds::add_clock_options(app, clock);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? kGood : kBadUsage;
-  }
-  if (const auto started = gyre::start_log("gyre-coordinator", log_level); !started) {
-    std::fprintf(stderr, "%s\n", started.error().text.c_str());
-    return kBadUsage;
-  }
-  gyre::log(gyre::dds::apply(clock));
-  return run(mission, network, engage);
+  program::add_options(app, options);
+  if (const auto answer = program::parse(app, argc, argv)) return *answer;
+  if (const auto answer = program::start("gyre-coordinator", options)) return *answer;
+  return run(mission, options.network, engage);
 }

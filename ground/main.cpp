@@ -6,9 +6,11 @@
 #include "ground/check.hpp"
 #include "ground/command.hpp"
 #include "ground/fly.hpp"
+#include "ground/health.hpp"
 #include "ground/sample.hpp"
 #include "ground/swarm_command.hpp"
 #include "ground/swarm_status.hpp"
+#include "ground/watch/watch.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app{"Gyre: a load that hangs still while the vehicles that carry it never stop.", "gyre"};
@@ -21,6 +23,8 @@ int main(int argc, char** argv) {
   gyre::ground::add_fly(app, exit_code);
   gyre::ground::add_swarm_commands(app, exit_code);
   gyre::ground::add_status(app, exit_code);
+  gyre::ground::add_watch(app, exit_code);
+  gyre::ground::add_health(app, exit_code);
 
   try {
     app.parse(argc, argv);

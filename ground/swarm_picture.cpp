@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "common/base/text.hpp"
-#include "common/protocol/course.hpp"
 #include "common/protocol/term.hpp"
+#include "ground/course_line.hpp"
 #include "ground/text_table.hpp"
 
 namespace gyre::ground {
@@ -23,10 +23,6 @@ const char* name(protocol::AgentState state) {
       return "alone";
   }
   return "unknown";
-}
-
-std::string number(const protocol::PlanNumber& plan) {
-  return text("%llu.%llu", protocol::generation(plan.term), static_cast<unsigned long long>(plan.revision));
 }
 
 std::string count(std::uint64_t n) {
@@ -55,24 +51,6 @@ bool SwarmPicture::complete() const {
   });
 }
 
-std::string SwarmPicture::plan_name(const protocol::PlanNumber& plan) const {
-  if (coordinator_ && plan == coordinator_->rest) return "rest";
-  if (coordinator_ && plan == coordinator_->motion) return "motion";
-  return "plan " + number(plan);
-}
-
-std::string SwarmPicture::course_line() const {
-  if (!beacon_) return "no beacon heard";
-  std::string line = plan_name(beacon_->course.base.number);
-  for (const protocol::Transition& t : beacon_->course.transitions) {
-    const double progress = seconds(beacon_->swarm_time - t.start) / seconds(t.duration);
-    line += " -> " + plan_name(t.to.number);
-    line += t.stage == protocol::Stage::kProposed ? " (proposed)"
-                                                  : text(" (%.0f %%)", 100.0 * std::clamp(progress, 0.0, 1.0));
-  }
-  return line;
-}
-
 std::string SwarmPicture::load_line() const {
   if (!load_) return "nobody tells where it is";
   return text("at (%.4f, %.4f, %.4f) m, moving at %.2g m/s", load_->position_w_m.x(), load_->position_w_m.y(),
@@ -92,7 +70,7 @@ std::string SwarmPicture::table() const {
   const protocol::CoordinatorStatus& c = *coordinator_;
   std::string out = text("%s: term %llu, swarm time %.1f s\n", c.mission.c_str(), protocol::generation(c.term),
                          seconds(c.swarm_time.time_since_epoch()));
-  out += "  course   " + course_line() + "\n";
+  out += "  course   " + (beacon_ ? course_line(*beacon_, coordinator_) : "no beacon heard") + "\n";
   out += "  load     " + load_line() + "\n";
   out += "  clocks   " + clock_line() + "\n";
   out += "  latest   " + c.news + "\n\n";
@@ -108,16 +86,18 @@ std::string SwarmPicture::table() const {
       continue;
     }
     const protocol::AgentStatus& s = agent->second;
-    rows.push_back({count(id), silent ? "SILENT" : name(s.state), plan_name(s.course.base.number),
+    rows.push_back({count(id), silent ? "SILENT" : name(s.state), plan_name(s.course.base.number, coordinator_),
                     milliseconds(s.clock_uncertainty), text("%+.2f", s.clock_drift_ppm),
                     count(s.beacons_missed) + " of " + count(s.beacons_received + s.beacons_missed),
                     dropped(s.dropped)});
   }
   out += aligned(rows);
   for (const auto& [id, s] : agents_) {
-    if (!s.refused.none()) out += text("\n  carrier %u refuses plan %s: ", id, number(s.refused).c_str()) + s.refusal;
+    if (!s.refused.none())
+      out += text("\n  carrier %u refuses ", id) + plan_name(s.refused, coordinator_) + ": " + s.refusal;
   }
   for (const auto& [process, h] : health_) {
+    if (!h.complaint.empty()) out += "\n  " + process + " complains: " + h.complaint;
     if (process.rfind("agent", 0) == 0) continue;  // in the table above
     out += "\n  " + process + " dropped " + dropped(h.dropped) + "; unreadable " + count(h.undecodable) +
            ", not sent " + count(h.unsendable) + ", overrun " + count(h.overrun);

@@ -25,8 +25,6 @@ class SwarmPicture {
   [[nodiscard]] std::string table() const;
 
  private:
-  [[nodiscard]] std::string course_line() const;
-  [[nodiscard]] std::string plan_name(const protocol::PlanNumber& number) const;
   [[nodiscard]] std::string load_line() const;
   [[nodiscard]] std::string clock_line() const;
 

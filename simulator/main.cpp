@@ -2,18 +2,16 @@
 
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <vector>
 
 #include "common/base/interrupts.hpp"
 #include "common/base/log.hpp"
-#include "common/dds/clock_options.hpp"
 #include "common/dds/health_reporter.hpp"
 #include "common/dds/inbox.hpp"
-#include "common/dds/network_options.hpp"
 #include "common/mission/mission.hpp"
+#include "common/program/program.hpp"
 #include "simulator/core/simulator.hpp"
 
 namespace {
@@ -22,9 +20,8 @@ using gyre::LocalTime;
 using gyre::simulator::Outputs;
 using gyre::simulator::SimulationSettings;
 using gyre::simulator::Simulator;
+namespace program = gyre::program;
 namespace protocol = gyre::protocol;
-
-enum ExitCode { kGood = 0, kFailed = 1, kBadUsage = 2 };
 
 struct SetpointArrived {
   protocol::Setpoint setpoint;
@@ -60,7 +57,10 @@ class Wire {
     if (out.load) load_.write(*out.load);
   }
 
-  void report_health(const protocol::DropCounts& dropped) { health_.step(gyre::dds::now(), dropped, inbox_.dropped()); }
+  void report_health(const Simulator& simulator) {
+    const LocalTime now = gyre::dds::now();
+    health_.step(now, simulator.complaint(now), simulator.dropped(), inbox_.dropped());
+  }
 
  private:
   gyre::dds::Inbox<SetpointArrived> inbox_;  // outlives the node, whose handlers fill it
@@ -98,7 +98,7 @@ void report(const Outputs& out) {
 }
 
 void simulate(Simulator& simulator, Wire& wire) {
-  while (gyre::take_interrupts() == 0) {
+  while (gyre::take_interrupts().total() == 0) {
     for (const SetpointArrived& event : wire.sleep_until(simulator.next_due())) {
       report(simulator.step(event.arrived, event.setpoint));
     }
@@ -107,7 +107,7 @@ void simulate(Simulator& simulator, Wire& wire) {
     const Outputs out = simulator.step(now, gyre::simulator::Advance{});
     wire.send(out);
     report(out);
-    wire.report_health(simulator.dropped());
+    wire.report_health(simulator);
   }
 }
 
@@ -115,30 +115,22 @@ int run(const std::string& path, const gyre::dds::NetworkOptions& network) {
   const auto mission = gyre::mission::read_mission_file(path);
   if (!mission) {
     std::fprintf(stderr, "%s\n", mission.error().text.c_str());
-    return kBadUsage;
+    return program::kBadUsage;
   }
-  const auto options = gyre::dds::node_options(network, {gyre::dds::Hub::kSimulator, std::nullopt});
-  if (!options) {
-    spdlog::error("{}", options.error().text);
-    return kBadUsage;
-  }
-  auto node = gyre::dds::Node::open(options.value());
-  if (!node) {
-    spdlog::error("{}", node.error().text);
-    return kFailed;
-  }
+  auto node = program::open_node(network, {gyre::dds::Hub::kSimulator, std::nullopt});
+  if (!node) return node.error();
   const gyre::mechanics::Plan& plan = mission.value().plan;
   Wire wire(std::move(node).value(), plan);
   auto simulator = Simulator::create(plan, settings_of(mission.value()), gyre::dds::now());
   if (!simulator) {
     spdlog::error("{}", simulator.error().text);
-    return kFailed;
+    return program::kFailed;
   }
   spdlog::info("\"{}\": the load hangs at rest from {} carriers", mission.value().name, plan.carriers.size());
   Simulator world = std::move(simulator).value();
   simulate(world, wire);
   spdlog::info("interrupted; ended after {:.1f} s", gyre::seconds(world.simulated()));
-  return kGood;
+  return program::kGood;
 }
 
 }  // namespace
@@ -148,24 +140,10 @@ int main(int argc, char** argv) {
   CLI::App app{"Simulates the load, its cables, winches and carriers, which follow the agents' setpoints.",
                "gyre-simulator"};
   std::string mission;
-  std::string log_level = "info";
-  gyre::dds::NetworkOptions network;
-  gyre::dds::ClockOptions clock;
-  app.add_option("MISSION", mission, "mission file (protobuf text format)")->required();
-  app.add_option("--log-level", log_level, "trace, debug, info, warning, error or off")
-      ->envname("GYRE_LOG_LEVEL")
-      ->capture_default_str();
-  gyre::dds::add_network_options(app, network);
-  gyre::dds::add_clock_options(app, clock);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? kGood : kBadUsage;
-  }
-  if (const auto started = gyre::start_log("gyre-simulator", log_level); !started) {
-    std::fprintf(stderr, "%s\n", started.error().text.c_str());
-    return kBadUsage;
-  }
-  gyre::log(gyre::dds::apply(clock));
-  return run(mission, network);
+  program::Options options;
+  program::add_mission(app, mission);
+  program::add_options(app, options);
+  if (const auto answer = program::parse(app, argc, argv)) return *answer;
+  if (const auto answer = program::start("gyre-simulator", options)) return *answer;
+  return run(mission, options.network);
 }

@@ -272,6 +272,26 @@ protocol::AgentState Agent::state(LocalTime now) const {
                                                                              : protocol::AgentState::kReady;
 }
 
+std::optional<std::string> Agent::complaint(LocalTime now) const {
+  if (!coordinator_.ever_heard()) return "no coordinator was heard";
+  if (coordinator_.silent(now)) {
+    return text("the coordinator is silent since %.1f s", seconds(now - *coordinator_.last()));
+  }
+  if (!clock_.synchronised()) return "swarm time was not found";
+  if (plans_.find(course_.base.number) == nullptr) return "has no plan yet";
+  const Duration budget = heard_ ? heard_->skew_budget : Duration::zero();
+  const Duration uncertainty = clock_.uncertainty(now);
+  // Another agent's clock may be as wrong, the other way.
+  if (budget > Duration::zero() && uncertainty > budget / 2) {
+    return text("its clock may be wrong by %.3g ms, the plan in force allows %.3g ms", 1e3 * seconds(uncertainty),
+                1e3 * seconds(budget / 2));
+  }
+  if (vehicle_ && now - vehicle_heard_ > options_.vehicle_timeout) {
+    return text("its vehicle is silent since %.1f s", seconds(now - vehicle_heard_));
+  }
+  return std::nullopt;
+}
+
 protocol::AgentStatus Agent::status(LocalTime now) {
   next_status_ = now + options_.status_period;
   protocol::AgentStatus s;

@@ -32,6 +32,8 @@ struct AgentOptions {
   Duration beacon_age_max = std::chrono::seconds(1);  ///< and what this clock may be wrong by
   /// A restarted agent waits so long for its vehicle to tell where it is, rather than fly a step.
   Duration vehicle_wait = std::chrono::milliseconds(500);
+  /// A vehicle that told where it is, and does not any more, is silent. One that never tells is flown all the same.
+  Duration vehicle_timeout = std::chrono::seconds(1);
   /// Without a tick for so long, it was suspended, and its vehicle may not be where the last setpoint leads any more.
   /// No shorter: on a busy machine the vehicle's states are late as well, and a short silence is bridged without a
   /// step.
@@ -67,6 +69,9 @@ class Agent {
   void count_undecodable(std::uint64_t total) { undecodable_ = total; }
   [[nodiscard]] const protocol::DropCounts& dropped() const { return dropped_; }
   [[nodiscard]] const protocol::Course& course() const { return course_; }  ///< what it flies
+  /// What keeps it from its work: nobody to follow, a clock beyond the plan's budget, a vehicle that went silent.
+  /// Absent: nothing does.
+  [[nodiscard]] std::optional<std::string> complaint(LocalTime now) const;
 
  private:
   void on(LocalTime now, const Tick& tick, Outputs& out);

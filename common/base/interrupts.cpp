@@ -21,14 +21,15 @@ void block_interrupts() {
   ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
 }
 
-int take_interrupts() {
+Interrupts take_interrupts() {
   const sigset_t set = blocked_signals();
   const timespec at_once{0, 0};
-  int count = 0;
+  Interrupts taken;
   for (int signal = 0; (signal = ::sigtimedwait(&set, nullptr, &at_once)) > 0;) {
-    if (signal != SIGPIPE) ++count;
+    if (signal == SIGTERM) ++taken.by_system;
+    if (signal == SIGINT || signal == SIGHUP) ++taken.by_person;
   }
-  return count;
+  return taken;
 }
 
 }  // namespace gyre

@@ -20,7 +20,7 @@ Result<std::string> start_log(const std::string& process_name, const std::string
   }};
   for (const auto& [word, value] : kLevels) {
     if (level != word) continue;
-    auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
+    auto sink = std::make_shared<spdlog::sinks::stdout_color_sink_mt>();
     auto logger = std::make_shared<spdlog::logger>(process_name, std::move(sink));
     logger->set_pattern("[%H:%M:%S.%e] [%n] [%^%l%$] %v");
     logger->set_level(value);

@@ -59,13 +59,15 @@ std::optional<idl::Beacon> encode(const protocol::Beacon& message) {
   wire.sequence_number(message.sequence);
   wire.swarm_time_ns(ns(message.swarm_time));
   wire.course(*course);
+  wire.skew_budget_ns(message.skew_budget.count());
   return wire;
 }
 
 std::optional<protocol::Beacon> decode(const idl::Beacon& wire) {
   const auto course = from_wire(wire.course());
   if (!course) return std::nullopt;
-  return protocol::Beacon{wire.term(), wire.sequence_number(), swarm(wire.swarm_time_ns()), *course};
+  return protocol::Beacon{wire.term(), wire.sequence_number(), swarm(wire.swarm_time_ns()), *course,
+                          Duration(wire.skew_budget_ns())};
 }
 
 std::optional<idl::PlanOffer> encode(const protocol::PlanOffer& message) {
@@ -327,6 +329,7 @@ std::optional<protocol::CoordinatorStatus> decode(const idl::CoordinatorStatus& 
 std::optional<idl::Health> encode(const protocol::Health& message) {
   idl::Health wire;
   wire.process(fitting_text(message.process, protocol::kMaxTextBytes));
+  wire.complaint(fitting_text(message.complaint, protocol::kMaxTextBytes));
   wire.dropped(to_wire(message.dropped));
   wire.undecodable(message.undecodable);
   wire.unsendable(message.unsendable);
@@ -335,8 +338,9 @@ std::optional<idl::Health> encode(const protocol::Health& message) {
 }
 
 std::optional<protocol::Health> decode(const idl::Health& wire) {
-  return protocol::Health{wire.process().to_string(), from_wire(wire.dropped()), wire.undecodable(), wire.unsendable(),
-                          wire.overrun()};
+  return protocol::Health{wire.process().to_string(), wire.complaint().to_string(),
+                          from_wire(wire.dropped()),  wire.undecodable(),
+                          wire.unsendable(),          wire.overrun()};
 }
 
 }  // namespace gyre::dds

@@ -33,6 +33,7 @@ namespace idl = gyre_msgs::msg;
 
 using Payload = rtps::SerializedPayload_t*;  // 3.x: a reference
 using Time = eprosima::fastrtps::Duration_t;
+using LocatorList = rtps::LocatorList_t;
 using UdpTransport = eprosima::fastdds::rtps::UDPv4TransportDescriptor;
 
 [[nodiscard]] inline std::uint32_t payload_length(Payload payload) {
@@ -54,10 +55,11 @@ template <class Type>
   return reader.take_next_sample(sample, &info) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
 }
 
-[[nodiscard]] inline rtps::Locator_t udp_locator(const std::string& ipv4) {
+/// Port 0: Fast DDS derives the ports from the domain and the participant ids it tries.
+[[nodiscard]] inline rtps::Locator_t udp_locator(const std::string& ipv4, int port) {
   rtps::Locator_t locator;
   locator.kind = LOCATOR_KIND_UDPv4;
-  locator.port = 0;  // Fast DDS derives the port from domain and participant id
+  locator.port = static_cast<std::uint32_t>(port);
   rtps::IPLocator::setIPv4(locator, ipv4);
   return locator;
 }

@@ -7,11 +7,15 @@ namespace gyre::dds {
 HealthReporter::HealthReporter(Node& node, std::string process)
     : node_(node), process_(std::move(process)), writer_(node.writer<protocol::Health>()) {}
 
-void HealthReporter::step(LocalTime now, const protocol::DropCounts& dropped, std::uint64_t overrun) {
-  if (published_ && now - *published_ < kPeriod) return;
+void HealthReporter::step(LocalTime now, const std::optional<std::string>& complaint,
+                          const protocol::DropCounts& dropped, std::uint64_t overrun) {
+  node_.answer_callers({process_, complaint.value_or("")});
+  const bool turned = complaint.has_value() != complained_;
+  if (published_ && now - *published_ < kPeriod && !turned) return;
   published_ = now;
+  complained_ = complaint.has_value();
   const Node::Counters counters = node_.counters();
-  writer_.write({process_, dropped, counters.undecodable, counters.unsendable, overrun});
+  writer_.write({process_, complaint.value_or(""), dropped, counters.undecodable, counters.unsendable, overrun});
 }
 
 }  // namespace gyre::dds

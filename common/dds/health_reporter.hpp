@@ -1,5 +1,6 @@
 #pragma once
-// Says once per second what this process dropped, and why: its core's counts, its node's, its inbox's, in one place.
+// Says how this process is: what keeps it from its work, what it dropped and why. Its core's counts, its node's, its
+// inbox's in one place; once per second on the wire, and at once to whoever asks at its seat (`gyre health`).
 
 #include <optional>
 #include <string>
@@ -16,15 +17,19 @@ class HealthReporter {
   /// `process` is its name as people know it: "agent 3". `node` outlives the reporter.
   HealthReporter(Node& node, std::string process);
 
-  /// Publishes when it is due, at the first call and kPeriod after the last publication; call it as often as the main
-  /// loop turns. `dropped` are the core's counts, `overrun` the inbox's.
-  void step(LocalTime now, const protocol::DropCounts& dropped, std::uint64_t overrun);
+  /// Publishes when it is due: at the first call, kPeriod after the last publication, and when a complaint comes up or
+  /// is settled. Call it as often as the main
+  /// loop turns, because a loop that does not turn answers nobody. `dropped` are the core's counts, `overrun` the
+  /// inbox's.
+  void step(LocalTime now, const std::optional<std::string>& complaint, const protocol::DropCounts& dropped,
+            std::uint64_t overrun);
 
  private:
-  const Node& node_;
+  Node& node_;
   const std::string process_;
   Writer<protocol::Health> writer_;
   std::optional<LocalTime> published_;
+  bool complained_ = false;
 };
 
 }  // namespace gyre::dds

@@ -1,12 +1,12 @@
 #include "common/dds/network_options.hpp"
 
-#include "common/dds/ipv4.hpp"
+#include "common/dds/interface.hpp"
 
 namespace gyre::dds {
 namespace {
 
-Error no_address(const std::string& option, const std::string& value) {
-  return Error{option + " is \"" + value + "\": give an IPv4 address such as 192.168.1.7"};
+Error no_address(const std::string& value) {
+  return Error{"--peer (or GYRE_PEER) is \"" + value + "\": give an IPv4 address such as 192.168.1.7"};
 }
 
 }  // namespace
@@ -16,7 +16,7 @@ void add_network_options(CLI::App& app, NetworkOptions& options) {
   app.add_option("--domain", options.domain, "DDS domain, 0 to 100 (else ROS_DOMAIN_ID, else 0)")
       ->envname("GYRE_DOMAIN")
       ->group(group);
-  app.add_option("--interface", options.interface, "IPv4 address of the network interface to use")
+  app.add_option("--interface", options.interface, "network interface to use, by its name or IPv4 address")
       ->envname("GYRE_INTERFACE")
       ->capture_default_str()
       ->group(group);
@@ -31,11 +31,12 @@ void add_network_options(CLI::App& app, NetworkOptions& options) {
 Result<NodeOptions> node_options(const NetworkOptions& options, Seat seat) {
   const Result<int> domain = choose_domain(options.domain);
   if (!domain) return domain.error();
-  if (!is_ipv4(options.interface)) return no_address("--interface (or GYRE_INTERFACE)", options.interface);
+  const Result<std::string> interface = interface_address(options.interface);
+  if (!interface) return Error{"--interface (or GYRE_INTERFACE): " + interface.error().text};
   for (const std::string& peer : options.peers) {
-    if (!is_ipv4(peer)) return no_address("--peer (or GYRE_PEER)", peer);
+    if (!is_ipv4(peer)) return no_address(peer);
   }
-  return NodeOptions{seat, domain.value(), options.interface, options.peers};
+  return NodeOptions{seat, domain.value(), interface.value(), options.peers};
 }
 
 }  // namespace gyre::dds

@@ -13,7 +13,7 @@ namespace gyre::dds {
 
 struct NetworkOptions {
   std::optional<int> domain;
-  std::string interface = "127.0.0.1";
+  std::string interface = "127.0.0.1";  ///< or a name, such as eth0
   std::vector<std::string> peers;
 };
 

@@ -116,6 +116,14 @@ Result<std::unique_ptr<Node>> Node::open(const NodeOptions& options) {
   return std::unique_ptr<Node>(new Node(std::make_unique<Impl>(std::move(participant).value())));
 }
 
+int Node::domain() const {
+  return static_cast<int>(impl_->participant->get_domain_id());
+}
+
+void Node::answer_callers(const SeatAnswer& answer) {
+  impl_->participant.seat().answer(answer);
+}
+
 Node::Counters Node::counters() const {
   return {*impl_->unsendable, *impl_->undecodable};
 }

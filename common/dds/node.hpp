@@ -18,6 +18,7 @@
 #include "common/base/ids.hpp"
 #include "common/base/result.hpp"
 #include "common/base/time.hpp"
+#include "common/dds/seat_lock.hpp"
 
 namespace gyre::dds {
 
@@ -81,6 +82,11 @@ class Node {
   template <class Message>
   void read(std::function<void(Message, LocalTime)> handler, std::optional<CarrierId> carrier = std::nullopt);
 
+  [[nodiscard]] int domain() const;
+
+  /// Answers everybody who asks at this node's seat (seat_lock.hpp); call it as often as the main loop turns.
+  void answer_callers(const SeatAnswer& answer);
+
   struct Counters {
     std::uint64_t unsendable = 0;   ///< write refused by Fast DDS or message too large
     std::uint64_t undecodable = 0;  ///< sample arrived that is no such message; one over the type's bound Fast DDS logs
@@ -100,5 +106,9 @@ struct SeatHolder {
   std::string holder;  ///< "pid 1234 (gyre-coordinator)"
 };
 [[nodiscard]] SeatHolder seat_holder(const Seat& seat, int domain);
+
+/// Asks every hub and agent of a domain that shares this network how it is, in the order of their seats; whoever has
+/// not answered when `patience` is used up is listed without an answer. Visitors are not asked: they come and go.
+[[nodiscard]] std::vector<SeatCall> ask_all_seats(int domain, Duration patience);
 
 }  // namespace gyre::dds

@@ -1,5 +1,6 @@
 #include "common/dds/participant.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
@@ -7,7 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "common/dds/ipv4.hpp"
+#include "common/dds/clock.hpp"
+#include "common/dds/interface.hpp"
 
 namespace gyre::dds {
 namespace {
@@ -68,6 +70,17 @@ Result<TakenSeat> take_seat(const Seat& seat, int domain) {
   return Error{describe(seat) + " of domain " + std::to_string(domain) + " is running already: " + owner + cure};
 }
 
+// Where at a host somebody may sit whom this participant has to find: port 0 stands for the ids that the transport
+// tries. A visitor finds everybody on its own machine by trying all ids there; agents on other machines have to find
+// it, so they look at the first seats of the gallery, too.
+void look_at(fast::LocatorList& peers, const std::string& host, int domain) {
+  constexpr int kGallery = 4;
+  peers.push_back(fast::udp_locator(host, 0));
+  for (int id = kFirstVisitor; id < kFirstVisitor + kGallery; ++id) {
+    peers.push_back(fast::udp_locator(host, discovery_port(domain, id)));
+  }
+}
+
 // What a user's XML profile sets, stays; what it leaves open becomes the star.
 fast::api::DomainParticipantQos star(const NodeOptions& options, int participant) {
   fast::api::DomainParticipantQos qos = fast::profiled_participant_qos();
@@ -86,11 +99,11 @@ fast::api::DomainParticipantQos star(const NodeOptions& options, int participant
   auto& builtin = qos.wire_protocol().builtin;
   // With a unicast locator of our own no multicast socket is opened.
   if (builtin.metatrafficUnicastLocatorList.empty()) {
-    builtin.metatrafficUnicastLocatorList.push_back(fast::udp_locator(options.interface));
+    builtin.metatrafficUnicastLocatorList.push_back(fast::udp_locator(options.interface, 0));
   }
   if (builtin.initialPeersList.empty()) {
-    builtin.initialPeersList.push_back(fast::udp_locator(options.interface));
-    for (const std::string& peer : options.peers) builtin.initialPeersList.push_back(fast::udp_locator(peer));
+    look_at(builtin.initialPeersList, options.interface, options.domain);
+    for (const std::string& peer : options.peers) look_at(builtin.initialPeersList, peer, options.domain);
   }
   // Silence is judged in the cores; a lease that runs out only unmatches, and matching anew is slow where packets are
   // lost. So it outlasts forty lost announcements, and a radio that is out for less costs nothing when it is back.
@@ -134,6 +147,16 @@ SeatHolder seat_holder(const Seat& seat, int domain) {
     holder = {true, *owner};
   }
   return holder;
+}
+
+std::vector<SeatCall> ask_all_seats(int domain, Duration patience) {
+  const LocalTime until = now() + patience;
+  std::vector<SeatCall> calls;
+  for (int id = 0; id < kFirstVisitor; ++id) {
+    const Duration left = std::max(Duration::zero(), until - now());
+    if (auto call = ask_seat(domain, id, left)) calls.push_back(std::move(*call));
+  }
+  return calls;
 }
 
 Participant::Participant(SeatLock seat, fast::api::DomainParticipant* participant)

@@ -24,6 +24,8 @@ class Participant {
   [[nodiscard]] fast::api::Publisher& publisher() const { return *publisher_; }
   [[nodiscard]] fast::api::Subscriber& subscriber() const { return *subscriber_; }
 
+  [[nodiscard]] const SeatLock& seat() const { return seat_; }
+
   /// Deletes every entity; waits for callbacks that are running. Listeners have to live until then.
   void close();
 

@@ -23,6 +23,7 @@ struct Beacon {
   std::uint64_t sequence = 0;
   SwarmTime swarm_time{};
   Course course;
+  Duration skew_budget{};  ///< clock disagreement that the plan in force allows; 0: any
 };
 
 struct NumberedSlice {
@@ -167,9 +168,10 @@ struct CoordinatorStatus {
   std::string news;                 ///< the latest of what it has to tell; at most kMaxTextBytes
 };
 
-/// Topic health, every process to ground: what it dropped, and why.
+/// Topic health, every process to ground: whether it does its work, what it dropped, and why.
 struct Health {
-  std::string process;  ///< "agent 3"; at most kMaxTextBytes
+  std::string process;    ///< "agent 3"; at most kMaxTextBytes
+  std::string complaint;  ///< what keeps it from its work; empty: nothing does. At most kMaxTextBytes
   DropCounts dropped;
   std::uint64_t undecodable = 0;  ///< samples that were no such message
   std::uint64_t unsendable = 0;   ///< messages the wire refused

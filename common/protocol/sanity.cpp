@@ -62,7 +62,8 @@ bool sane(const mechanics::CarrierSlice& slice) {
 }  // namespace
 
 bool sane(const Beacon& beacon) {
-  return sane(beacon.swarm_time) && sane(beacon.course);
+  return sane(beacon.swarm_time) && sane(beacon.course) && sane(beacon.skew_budget) &&
+         beacon.skew_budget >= Duration::zero();
 }
 
 bool sane(const PlanOffer& offer) {

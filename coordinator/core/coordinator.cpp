@@ -54,13 +54,16 @@ void Coordinator::on(LocalTime now, const Tick& /*tick*/, Outputs& out) {
     listen(now, out);
     return;
   }
-  if (protocol::settle(course_, swarm_time(now))) {
+  const bool settled = protocol::settle(course_, swarm_time(now));
+  if (settled) {
     ++course_.revision;
     tell(out, Notice::Level::kInfo, text("the load is held by the %s plan", plans_.name(course_.base.number)));
   }
+  // Of n slices: not for every beacon.
+  if (settled || now >= next_status_) budget_in_force_ = skew_budget(course_.base.number);
   check_start(now, out);
   drive(now, out);
-  out.beacon = protocol::Beacon{term_, ++sequence_, swarm_time(now), course_};
+  out.beacon = protocol::Beacon{term_, ++sequence_, swarm_time(now), course_, budget_in_force_};
   if (now >= next_status_) {
     next_status_ = now + options_.status_period;
     out.status = status(now);
@@ -319,6 +322,18 @@ Duration Coordinator::skew(LocalTime now) const {
   return 2 * worst;  // one early, another late
 }
 
+std::optional<std::string> Coordinator::complaint(LocalTime now) const {
+  if (term_ == 0) return news_.empty() ? "has heard nobody yet" : news_;
+  const std::vector<CarrierId> silent = fleet_.missing(now, [](const protocol::AgentStatus&) { return true; });
+  if (silent.size() == carriers_.size()) return "no agent is heard";
+  if (!silent.empty()) return list(silent) + (silent.size() == 1 ? " is silent" : " are silent");
+  if (budget_in_force_ > Duration::zero() && skew(now) > budget_in_force_) {
+    return text("the clocks may disagree by %.3g ms, the plan in force allows %.3g ms", 1e3 * seconds(skew(now)),
+                1e3 * seconds(budget_in_force_));
+  }
+  return std::nullopt;
+}
+
 protocol::CoordinatorStatus Coordinator::status(LocalTime now) const {
   protocol::CoordinatorStatus s;
   s.term = term_;
@@ -326,7 +341,7 @@ protocol::CoordinatorStatus Coordinator::status(LocalTime now) const {
   s.mission = job_.name.substr(0, protocol::kMaxTextBytes);
   s.rest = rest_;
   s.motion = motion_;
-  s.skew_budget = skew_budget(course_.base.number);
+  s.skew_budget = budget_in_force_;
   s.skew = skew(now);
   s.carriers = carriers_;
   for (const CarrierId id : carriers_) {

@@ -97,6 +97,8 @@ class Coordinator {
   [[nodiscard]] const protocol::Course& course() const { return course_; }
   [[nodiscard]] std::uint64_t term() const { return term_; }
   [[nodiscard]] const protocol::DropCounts& dropped() const { return dropped_; }
+  /// What keeps it from its work: who is not heard, or clocks that may disagree too far. Absent: nothing does.
+  [[nodiscard]] std::optional<std::string> complaint(LocalTime now) const;
 
  private:
   void on(LocalTime now, const Tick& tick, Outputs& out);
@@ -151,7 +153,8 @@ class Coordinator {
   Fleet fleet_;
   Recovery recovery_;
   PlanBook plans_;
-  Duration swarm_offset_{};  ///< swarm time − this process's clock
+  Duration swarm_offset_{};     ///< swarm time − this process's clock
+  Duration budget_in_force_{};  ///< clock disagreement that the plan in force allows; 0: any
 
   std::uint64_t term_ = 0;  ///< 0 while still listening
   std::uint64_t sequence_ = 0;

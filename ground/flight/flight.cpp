@@ -27,6 +27,7 @@ Flight::Flight(const mission::Mission& mission, double duration_s, dds::Node& no
                FlightDisplay& display)
     : mission_(mission),
       duration_s_(duration_s),
+      node_(node),
       supervisor_(supervisor),
       display_(display),
       monitor_(carrier_ids(mission), dds::now()),
@@ -51,8 +52,9 @@ std::optional<FlightFailure> Flight::run() {
   while (!released_) {
     std::this_thread::sleep_for(kTick);
     for (const Event& event : inbox_->wait_until(dds::now())) take(event);
+    node_.answer_callers({"gyre fly", ""});
     const LocalTime now = dds::now();
-    interrupts_ += take_interrupts();
+    interrupts_ += take_interrupts().total();
     if (interrupts_ >= 2) return FlightFailure{"ended at once, as asked: the load was not brought to rest", {}};
     if (const auto failure = look_after_processes()) return failure;
 
@@ -92,7 +94,7 @@ std::optional<FlightFailure> Flight::look_after_processes() {
   for (const Supervisor::Ended& ended : supervisor_.collect()) {
     const bool asked = release_deadline_.has_value() && ended.name == kCoordinatorName;
     // Asked before it was ready for signals, it has nothing to bring to rest.
-    const bool unready = ended.end.signal == SIGTERM && !monitor_.under_way(dds::now());
+    const bool unready = ended.end.signal == SIGINT && !monitor_.under_way(dds::now());
     if (!asked || !(ended.end.clean() || unready))
       return FlightFailure{ended.name + " " + ended.end.text(), ended.name};
     released_ = true;
@@ -103,7 +105,7 @@ std::optional<FlightFailure> Flight::look_after_processes() {
 void Flight::release(LocalTime now) {
   if (release_deadline_) return;
   release_deadline_ = now + 2 * monitor_.transition_duration() + kReleasePatience;
-  supervisor_.send(kCoordinatorName, SIGTERM);
+  supervisor_.send(kCoordinatorName, SIGINT);  // as a person would: back to rest, then the end
 }
 
 void Flight::show(LocalTime now) {

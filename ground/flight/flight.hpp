@@ -56,6 +56,7 @@ class Flight {
 
   const mission::Mission& mission_;
   double duration_s_;
+  dds::Node& node_;
   Supervisor& supervisor_;
   FlightDisplay& display_;
   std::shared_ptr<EventInbox> inbox_ = std::make_shared<EventInbox>(std::size_t{1} << 16);

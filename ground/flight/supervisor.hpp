@@ -20,7 +20,7 @@ struct Program {
 
 /// What stop() does when, counted from its call.
 struct StopPatience {
-  double ask_again_s = 0.5;  ///< a second SIGTERM: for the coordinator that means "at once"
+  double ask_again_s = 0.5;  ///< a second SIGTERM, for one who came to its signals only now
   double kill_s = 2.0;       ///< then SIGKILL
 };
 

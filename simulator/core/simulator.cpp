@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "common/base/ensure.hpp"
+#include "common/base/text.hpp"
 #include "common/mechanics/reference.hpp"
 #include "common/mechanics/rest_plan.hpp"
+#include "common/protocol/liveness.hpp"
 #include "simulator/core/age_judge.hpp"
 
 namespace gyre::simulator {
@@ -24,6 +26,7 @@ struct Vehicle {
   CarrierFollower follower;
   Winch winch;
   AgeJudge ages;
+  protocol::Liveness led;
 
   [[nodiscard]] Anchor anchor(double t_s) const {
     const CarrierMotion carrier = follower.at(t_s);
@@ -98,7 +101,9 @@ struct Simulator::World {
         latest_objection = "more setpoints than the simulator can take up";
         unreported_drops = true;
       }
-      const Duration age = vehicles[index.at(setpoint.carrier)].ages.age(setpoint.swarm_time, arrived);
+      Vehicle& vehicle = vehicles[index.at(setpoint.carrier)];
+      vehicle.led.heard(arrived);
+      const Duration age = vehicle.ages.age(setpoint.swarm_time, arrived);
       waiting.push_back({arrived, arrived - age, setpoint});
     }
     report_drops(arrived, out);
@@ -114,6 +119,16 @@ struct Simulator::World {
     protocol::DropCounts counts = judge.dropped();
     counts.late += overrun;
     return counts;
+  }
+
+  [[nodiscard]] std::optional<std::string> complaint(LocalTime now) const {
+    std::string silent;
+    for (const Vehicle& vehicle : vehicles) {
+      if (vehicle.led.silent(now)) silent += (silent.empty() ? "" : ", ") + std::to_string(vehicle.id);
+    }
+    if (!silent.empty()) return "no setpoints for carriers " + silent;
+    if (now - time() > kToleratedLag) return text("%.2f s behind real time", seconds(now - time()));
+    return std::nullopt;
   }
 
   void advance(LocalTime now, Outputs& out) {
@@ -217,7 +232,7 @@ Result<Simulator> Simulator::create(const mechanics::Plan& plan, const Simulatio
     vehicles.push_back(
         {slice.id, CarrierFollower(rest.position_w_m.value, settings.carrier_lag_s),
          Winch(unstretched_m, {settings.winch_time_constant_s, settings.winch_rate_limit_m_s, seconds(settings.tick)}),
-         AgeJudge()});
+         AgeJudge(), protocol::Liveness(kLongestSilence)});
     longest_rest_m = std::max(longest_rest_m, (rest.position_w_m.value - plan.load.position_w_m).norm());
   }
   return Simulator(std::make_unique<World>(plan, settings, start, std::move(vehicles), longest_rest_m));
@@ -253,6 +268,10 @@ Duration Simulator::simulated() const {
 
 protocol::DropCounts Simulator::dropped() const {
   return world_->dropped();
+}
+
+std::optional<std::string> Simulator::complaint(LocalTime now) const {
+  return world_->complaint(now);
 }
 
 }  // namespace gyre::simulator

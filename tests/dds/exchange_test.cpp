@@ -171,12 +171,13 @@ TEST(Health, IsReportedOncePerPeriodWithEveryCount) {
       [&](const protocol::Health& health) { return arrived.insert(health.overrun).second && arrived.size() == 5; },
       [&] {
         for (int i = 0; i < 2; ++i, ++step) {
-          reporter.step(LocalTime(step * dds::HealthReporter::kPeriod / 2), {1, 2, 3, 4}, step);
+          reporter.step(LocalTime(step * dds::HealthReporter::kPeriod / 2), "its vehicle is silent", {1, 2, 3, 4},
+                        step);
         }
       });
   ASSERT_TRUE(last);
   for (const std::uint64_t overrun : arrived) EXPECT_EQ(overrun % 2, 0U) << "was not due";
-  const protocol::Health expected{"agent 3", {1, 2, 3, 4}, 0, 1, last->overrun};
+  const protocol::Health expected{"agent 3", "its vehicle is silent", {1, 2, 3, 4}, 0, 1, last->overrun};
   EXPECT_EQ(tests::bits_of(*last), tests::bits_of(expected));
 }
 

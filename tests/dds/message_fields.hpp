@@ -24,7 +24,7 @@ template <class V> void each_field(protocol::PlanNumber& m, V& v) { auto& [a, b]
 template <class V> void each_field(protocol::TimedPlan& m, V& v) { auto& [a, b] = m; visit_all(v, a, b); }
 template <class V> void each_field(protocol::Transition& m, V& v) { auto& [a, b, c, d, e] = m; visit_all(v, a, b, c, d, e); }
 template <class V> void each_field(protocol::Course& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
-template <class V> void each_field(protocol::Beacon& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
+template <class V> void each_field(protocol::Beacon& m, V& v) { auto& [a, b, c, d, e] = m; visit_all(v, a, b, c, d, e); }
 template <class V> void each_field(mechanics::EdgePush& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
 template <class V> void each_field(mechanics::Harmonic& m, V& v) { auto& [a, b] = m; visit_all(v, a, b); }
 template <class V> void each_field(mechanics::Oscillation& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
@@ -49,7 +49,7 @@ template <class V> void each_field(protocol::LoadState& m, V& v) { auto& [a, b, 
 template <class V> void each_field(protocol::Command& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
 template <class V> void each_field(protocol::CommandReply& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
 template <class V> void each_field(protocol::CoordinatorStatus& m, V& v) { auto& [a, b, c, d, e, f, g, h, i, j] = m; visit_all(v, a, b, c, d, e, f, g, h, i, j); }
-template <class V> void each_field(protocol::Health& m, V& v) { auto& [a, b, c, d, e] = m; visit_all(v, a, b, c, d, e); }
+template <class V> void each_field(protocol::Health& m, V& v) { auto& [a, b, c, d, e, f] = m; visit_all(v, a, b, c, d, e, f); }
 // clang-format on
 
 /// Fills fields with anything their type can hold; a third of the numbers are extremes. Runs inside a property.

@@ -112,7 +112,7 @@ class FaultTest : public ProgramsTest {
   }
   /// The coordinator is asked to end the flight: back to rest, and good-bye.
   void land() {
-    flight_->send("coordinator", SIGTERM);
+    flight_->send("coordinator", SIGINT);
     const auto took = FaultFlight::seconds_until(kRecovery_s, [&] {
       return flight_->said("coordinator").find("the flight has ended at rest") != std::string::npos;
     });

@@ -76,6 +76,8 @@ TEST(Sanity, Beacon) {
   expect_each_refused<Beacon>(
       good_beacon(), {
                          [](Beacon& b) { b.swarm_time = kNever; },
+                         [](Beacon& b) { b.skew_budget = Duration(-1); },
+                         [](Beacon& b) { b.skew_budget = Duration::max(); },
                          [](Beacon& b) { b.course.base.epoch = kNever; },
                          [](Beacon& b) { b.course.transitions[0].to.number = {}; },
                          [](Beacon& b) { b.course.transitions[0].to.epoch = kNever; },

@@ -6,6 +6,7 @@
 
 #include "common/mechanics/certificate.hpp"
 #include "common/mission/mission.hpp"
+#include "common/program/program.hpp"
 #include "ground/certificate_json.hpp"
 #include "ground/certificate_table.hpp"
 #include "ground/command.hpp"
@@ -38,8 +39,7 @@ void add_check(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<CheckOptions>();
   CLI::App* command =
       app.add_subcommand("check", "Say whether a mission is admissible, with every figure and every broken rule.");
-  command->add_option("MISSION", options->mission, "mission file, Protobuf text format (idl/mission.proto)")
-      ->required();
+  program::add_mission(*command, options->mission);
   command->add_flag("--json", options->json, "print the certificate as JSON");
   command->callback([options, &exit_code] { exit_code = check(*options); });
 }

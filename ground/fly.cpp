@@ -8,6 +8,7 @@
 
 #include "common/base/interrupts.hpp"
 #include "common/mechanics/certificate.hpp"
+#include "common/program/program.hpp"
 #include "ground/certificate_table.hpp"
 #include "ground/command.hpp"
 #include "ground/flight/flight.hpp"
@@ -118,8 +119,7 @@ void add_fly(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<FlyOptions>();
   CLI::App* command = app.add_subcommand(
       "fly", "Fly a mission on this machine: coordinator, simulator and one agent per carrier, and a verdict.");
-  command->add_option("MISSION", options->mission, "mission file, Protobuf text format (idl/mission.proto)")
-      ->required();
+  program::add_mission(*command, options->mission);
   command->add_option("--duration", options->duration_s, "seconds of full motion (else one period of the mission)")
       ->check(a_duration());
   command->add_option("--logs", options->logs, "directory for one log per process; kept (else a temporary one)");

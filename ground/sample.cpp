@@ -7,6 +7,7 @@
 
 #include "common/mechanics/certificate.hpp"
 #include "common/mission/mission.hpp"
+#include "common/program/program.hpp"
 #include "ground/command.hpp"
 #include "ground/motion_csv.hpp"
 
@@ -56,8 +57,7 @@ int sample(const SampleOptions& options) {
 void add_sample(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<SampleOptions>();
   CLI::App* command = app.add_subcommand("sample", "Print the motion over one period as CSV.");
-  command->add_option("MISSION", options->mission, "mission file, Protobuf text format (idl/mission.proto)")
-      ->required();
+  program::add_mission(*command, options->mission);
   command->add_option("--count", options->count, "rows per carrier, both ends of the period included")
       ->check(CLI::Range(2, 100000))
       ->capture_default_str();

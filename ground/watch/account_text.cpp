@@ -31,7 +31,9 @@ std::string account_json(const Account& account) {
   json["complaints"] = Json::object();
   for (const auto& [process, words] : account.complaints) json["complaints"][process] = words;
   json["load"] = {{"displacement_max_m", account.load.displacement_max_m},
+                  {"displacement_allowed_m", account.allowed.displacement_max_m},
                   {"rotation_max_deg", account.load.rotation_max_deg},
+                  {"rotation_allowed_deg", account.allowed.rotation_max_deg},
                   {"residual_max", account.load.residual_max},
                   {"samples", account.load.samples}};
   json["skew_s"] = seconds(account.skew);

@@ -11,7 +11,8 @@ namespace gyre::ground {
 [[nodiscard]] std::string account_line(const Account& account);
 
 /// One JSON object in one line. Keys: time_s, calm, complaint, course, term, silent, complaints {process: text},
-/// load {displacement_max_m, rotation_max_deg, residual_max, samples}, skew_s, skew_budget_s (null: any).
+/// load {displacement_max_m, displacement_allowed_m, rotation_max_deg, rotation_allowed_deg, residual_max, samples},
+/// skew_s, skew_budget_s (null: any).
 [[nodiscard]] std::string account_json(const Account& account);
 
 }  // namespace gyre::ground

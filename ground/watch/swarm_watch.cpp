@@ -115,6 +115,7 @@ Account SwarmWatch::account(LocalTime now) {
   account.course = beacon_ ? course_line(*beacon_, coordinator_) : "unknown";
   account.complaints = complaints_;
   account.load = window_;
+  account.allowed = tolerance_;
   window_ = {};
   if (coordinator_) {
     account.term = protocol::generation(coordinator_->term);

@@ -40,6 +40,7 @@ struct Account {
   std::vector<CarrierId> silent;                  ///< as the coordinator says
   std::map<std::string, std::string> complaints;  ///< of processes, each about itself
   LoadWindow load;
+  mission::LoadTolerance allowed;  ///< of the load, by the mission
   Duration skew{};
   Duration skew_budget{};  ///< 0: any
 

@@ -59,6 +59,10 @@ TEST_F(OptionsTest, TakeInterfaceAndPeersFromTheEnvironmentToo) {
             (std::vector<std::string>{"10.0.0.5", "10.0.0.6"}));
 }
 
+TEST_F(OptionsTest, TakeAnInterfaceByItsNameToo) {
+  EXPECT_EQ(parse({"--interface", "lo"}).value().interface, "127.0.0.1");
+}
+
 TEST_F(OptionsTest, NameTheSourceOfAWrongDomainAndTheRange) {
   const auto expect_words = [](const Result<dds::NodeOptions>& options, const std::string& source) {
     ASSERT_FALSE(options);
@@ -74,7 +78,9 @@ TEST_F(OptionsTest, NameTheSourceOfAWrongDomainAndTheRange) {
 }
 
 TEST_F(OptionsTest, NameTheOptionOfAWrongAddress) {
-  EXPECT_NE(parse({"--interface", "eth0"}).error().text.find("--interface"), std::string::npos);
+  const std::string unknown = parse({"--interface", "nosuch0"}).error().text;
+  EXPECT_NE(unknown.find("--interface"), std::string::npos) << unknown;
+  EXPECT_NE(unknown.find("lo (127.0.0.1)"), std::string::npos) << "what there is: " << unknown;
   EXPECT_NE(parse({"--peer", "10.0.0.300"}).error().text.find("\"10.0.0.300\""), std::string::npos);
 }
 

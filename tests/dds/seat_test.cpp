@@ -6,8 +6,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "common/dds/node.hpp"
 #include "common/dds/seat_lock.hpp"
@@ -110,6 +112,63 @@ TEST(Seat, VisitorsSitBesideEachOther) {
   const auto first = tests::open(options, {});
   const auto second = tests::open(options, {});
   EXPECT_TRUE(first && second);
+}
+
+constexpr Duration kSoon = std::chrono::milliseconds(50);
+constexpr Duration kPatience = std::chrono::seconds(5);
+
+TEST(SeatCall, IsAnsweredByTheMainLoopAndOnlyByIt) {
+  const int domain = dds::kMaxDomain + 1;
+  EXPECT_FALSE(dds::ask_seat(domain, 0, kSoon)) << "nobody there";
+  const auto lock = dds::SeatLock::take(domain, 0);
+  ASSERT_TRUE(lock);
+  const auto unanswered = dds::ask_seat(domain, 0, kSoon);
+  ASSERT_TRUE(unanswered) << "somebody there";
+  EXPECT_FALSE(unanswered->answer) << "whose loop does not turn";
+  EXPECT_FALSE(unanswered->elsewhere);
+  EXPECT_EQ(unanswered->owner, dds::seat_owner(domain, 0));
+
+  std::optional<dds::SeatCall> call;
+  std::atomic<bool> over{false};
+  std::thread caller([&] {
+    call = dds::ask_seat(domain, 0, kPatience);
+    over = true;
+  });
+  while (!over) {
+    lock.value().answer({"agent 3", "its vehicle is silent"});
+    std::this_thread::yield();
+  }
+  caller.join();
+  ASSERT_TRUE(call && call->answer);
+  EXPECT_EQ(call->answer->process, "agent 3");
+  EXPECT_EQ(call->answer->complaint, "its vehicle is silent");
+}
+
+TEST(SeatCall, ReachesHubsAndAgentsAndNoVisitor) {
+  dds::NodeOptions options;
+  const auto coordinator = tests::open_coordinator(options);
+  const auto agent = tests::open(options, {std::nullopt, kMaxCarrierId});
+  const auto visitor = tests::open(options, {});
+  ASSERT_TRUE(coordinator && agent && visitor);
+  const auto calls = dds::ask_all_seats(options.domain, kSoon);
+  ASSERT_EQ(calls.size(), 2U);
+  for (const dds::SeatCall& call : calls) EXPECT_FALSE(call.answer);
+}
+
+TEST(SeatCall, OfACrowdBlocksNobody) {
+  const int domain = dds::kMaxDomain + 1;
+  const auto lock = dds::SeatLock::take(domain, 0);
+  ASSERT_TRUE(lock);
+  for (int i = 0; i < 200; ++i) EXPECT_TRUE(dds::seat_owner(domain, 0)) << "who leaves without an answer";
+  for (int i = 0; i < 200; ++i) lock.value().answer({"agent 3", ""});
+  std::thread answering([&] {
+    for (int i = 0; i < 2000; ++i) {
+      lock.value().answer({"agent 3", ""});
+      std::this_thread::yield();
+    }
+  });
+  EXPECT_TRUE(dds::ask_seat(domain, 0, kPatience)) << "the next is heard";
+  answering.join();
 }
 
 TEST(Seat, ThatDoesNotExistIsRefused) {

@@ -67,6 +67,29 @@ double displacement_m(const Simulator& simulator) {
   return (simulator.load().position_w_m - rigs::paper().load.position_w_m).norm();
 }
 
+TEST(Simulator, ComplainsOfCarriersThatNobodyLeadsAndOfTimeThatIsBehind) {
+  const Agents agents(rigs::paper());
+  Simulator simulator = make();
+  const auto complaint = [&](Duration at) { return simulator.complaint(kStart + at).value_or("none"); };
+  const auto lead = [&](std::size_t count, Duration at) {
+    for (std::size_t i = 0; i < count; ++i) (void)simulator.step(kStart + at, agents.setpoint(i, at));
+  };
+  const auto advance_to = [&](Duration at) {
+    while (simulator.simulated() < at) (void)simulator.step(kStart + at, Advance{});
+  };
+  EXPECT_EQ(complaint(milliseconds(0)), "no setpoints for carriers 1, 2, 3, 4");
+  lead(3, milliseconds(0));
+  EXPECT_EQ(complaint(milliseconds(0)), "no setpoints for carriers 4");
+  lead(4, milliseconds(10));
+  EXPECT_EQ(complaint(milliseconds(10)), "none");
+  lead(4, milliseconds(500));
+  EXPECT_EQ(complaint(milliseconds(500)), "0.50 s behind real time");
+  advance_to(milliseconds(500));
+  EXPECT_EQ(complaint(milliseconds(500)), "none");
+  advance_to(milliseconds(1510));
+  EXPECT_EQ(complaint(milliseconds(1510)), "no setpoints for carriers 1, 2, 3, 4");
+}
+
 TEST(Simulator, RestsUntilTheFirstSetpointAndPublishesAtItsRate) {
   Simulator simulator = make();
   int load_states = 0;

@@ -12,6 +12,10 @@ using Number = mechanics::Taylor<double>;
 /// Below this nobody could measure a step: rounding of the same reference computed twice.
 constexpr double kNothing_m = 1e-9;
 constexpr double kShortest_s = 1.0;
+/// A load swings on cables of some metres within one to three seconds. Pushed by a gap that closes faster than that, it
+/// goes on swinging: nothing but air damps it. Gaps below a millimetre push nobody.
+constexpr double kUnpushed_s = 3.0;
+constexpr double kUnnoticed_m = 1e-3;
 /// Peaks of the fading quintics: of a unit gap, 15/8 of gap / T and 10/√3 of gap / T²; of a unit rate, 3.95 of rate /
 /// T.
 constexpr double kRatePeak = 1.875;
@@ -19,13 +23,13 @@ constexpr double kAccelerationPeak = 5.7735;
 constexpr double kStopPeak = 3.95;
 
 /// Gap and rate share what the merge may use of the acceleration.
-Duration gap_time(double gap, double rate_limit, double acceleration_limit) {
+Duration gap_time(double gap, double rate_limit, double acceleration_limit, double shortest_s) {
   const double by_rate = kRatePeak * gap / rate_limit;
   const double by_acceleration = std::sqrt(kAccelerationPeak * gap / (0.5 * acceleration_limit));
-  return from_seconds(std::max({kShortest_s, by_rate, by_acceleration}));
+  return from_seconds(std::max({shortest_s, by_rate, by_acceleration}));
 }
-Duration rate_time(double rate, double acceleration_limit) {
-  return from_seconds(std::max(kShortest_s, kStopPeak * rate / (0.5 * acceleration_limit)));
+Duration rate_time(double rate, double acceleration_limit, double shortest_s) {
+  return from_seconds(std::max(shortest_s, kStopPeak * rate / (0.5 * acceleration_limit)));
 }
 
 /// Where a fade that takes `duration` is.
@@ -47,9 +51,10 @@ void Merge::begin(SwarmTime now, const Command& flown, const Command& reference)
   under_way_ = std::max(position, length) >= kNothing_m || std::max(speed, rate) >= kNothing_m;
   // Half of each limit: the other half is for the plan that goes on meanwhile.
   const double acceleration = 0.5 * limits_.acceleration_m_s2;
-  value_time_ = std::max(gap_time(position, 0.5 * limits_.speed_m_s, acceleration),
-                         gap_time(length, 0.5 * limits_.winch_rate_m_s, acceleration));
-  rate_time_ = rate_time(std::max(speed, rate), acceleration);
+  const double shortest_s = std::max(position, length) > kUnnoticed_m ? kUnpushed_s : kShortest_s;
+  value_time_ = std::max(gap_time(position, 0.5 * limits_.speed_m_s, acceleration, shortest_s),
+                         gap_time(length, 0.5 * limits_.winch_rate_m_s, acceleration, shortest_s));
+  rate_time_ = rate_time(std::max(speed, rate), acceleration, shortest_s);
 }
 
 Command Merge::apply(SwarmTime now, const Command& reference) const {

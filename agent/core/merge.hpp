@@ -8,7 +8,8 @@
 //
 //   e(x) = e0 (1 − 10x³ + 15x⁴ − 6x⁵) + e0' T (x − 6x³ + 8x⁴ − 3x⁵) + e0'' T² (x²/2 − 3x³/2 + 3x⁴/2 − x⁵/2)
 //   x = (t − t0) / T, each term with its own T: long enough for half the vehicle's speed and acceleration to be left
-//   for the plan itself, and no longer, because a rate that fades over a long T carries far: e0' T / 5, e0'' T² / 60.
+//   for the plan itself, and for a gap that is felt not to set the load swinging; no longer, because a rate that fades
+//   over a long T carries far: e0' T / 5, e0'' T² / 60.
 //
 // While a gap closes, the carrier is not where equilibrium wants it: that is the price of having been away, and T is
 // what it is paid with.

@@ -15,17 +15,27 @@ CarrierFollower::CarrierFollower(const Eigen::Vector3d& rest_position_w_m, std::
 
 void CarrierFollower::command(const CarrierTarget& target, double held_s, double now_s) {
   const Eigen::Vector3d place = at(now_s).position_w_m;
+  const CarrierMotion before = asked(now_s);
+  const bool slowed_down = led_ && now_s - target_since_s_ > kExtrapolationHorizon_s;
+  led_ = true;
   target_ = target;
   target_since_s_ = held_s;
+  if (slowed_down) {
+    catch_up_ = CatchUp<Eigen::Vector3d>(Eigen::Vector3d::Zero());
+    const CarrierMotion wanted = asked(now_s);
+    catch_up_.begin({before.position_w_m - wanted.position_w_m, before.velocity_w_m_s - wanted.velocity_w_m_s}, now_s);
+  }
   error_w_m_ = asked(now_s).position_w_m - place;
   error_since_s_ = now_s;
 }
 
 CarrierMotion CarrierFollower::asked(double t_s) const {
   const ExtrapolationWeights w = extrapolate(t_s - target_since_s_);
+  const auto left = catch_up_.at(t_s);
   return {
-      target_.position_w_m + w.by_velocity * target_.velocity_w_m_s + w.by_acceleration * target_.acceleration_w_m_s2,
-      w.rate_by_velocity * target_.velocity_w_m_s + w.rate_by_acceleration * target_.acceleration_w_m_s2};
+      left.value + target_.position_w_m + w.by_velocity * target_.velocity_w_m_s +
+          w.by_acceleration * target_.acceleration_w_m_s2,
+      left.rate + w.rate_by_velocity * target_.velocity_w_m_s + w.rate_by_acceleration * target_.acceleration_w_m_s2};
 }
 
 CarrierMotion CarrierFollower::at(double t_s) const {

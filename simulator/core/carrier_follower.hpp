@@ -8,10 +8,12 @@
 //   p' = p*' + e / T     so   e(t) = e(t0) exp(−(t − t0) / T): exact over any step
 //
 // A setpoint that differs from what was extrapolated moves an exact carrier there at once; a lagging one keeps its
-// place and takes the difference up as error.
+// place and takes the difference up as error. After a silence that made it slow down, either catches up (catch_up.hpp).
 
 #include <Eigen/Core>
 #include <optional>
+
+#include "simulator/core/catch_up.hpp"
 
 namespace gyre::simulator {
 
@@ -43,6 +45,8 @@ class CarrierFollower {
   std::optional<double> lag_s_;
   CarrierTarget target_;
   double target_since_s_ = 0.0;
+  bool led_ = false;
+  CatchUp<Eigen::Vector3d> catch_up_{Eigen::Vector3d::Zero()};
   Eigen::Vector3d error_w_m_ = Eigen::Vector3d::Zero();  // at error_since_s_
   double error_since_s_ = 0.0;
 };

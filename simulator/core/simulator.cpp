@@ -179,7 +179,7 @@ struct Simulator::World {
     const double held_s = seconds(waited.held - start);
     Vehicle& vehicle = vehicles[index.at(s.carrier)];
     vehicle.follower.command({s.position_w_m, s.velocity_w_m_s, s.acceleration_w_m_s2}, held_s, now_s);
-    vehicle.winch.command({s.winch_length_m, s.winch_rate_m_s, s.winch_acceleration_m_s2}, held_s);
+    vehicle.winch.command({s.winch_length_m, s.winch_rate_m_s, s.winch_acceleration_m_s2}, held_s, now_s);
   }
 
   void publish(Outputs& out) {

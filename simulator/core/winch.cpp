@@ -15,9 +15,16 @@ Winch::Winch(double rest_length_m, const WinchSettings& settings)
   begin_.length_m = rest_length_m;
 }
 
-void Winch::command(const WinchTarget& target, double held_s) {
+void Winch::command(const WinchTarget& target, double held_s, double now_s) {
+  const WinchMotion before = asked(now_s);
+  const bool slowed_down = led_ && now_s - target_since_s_ > kExtrapolationHorizon_s;
+  led_ = true;
   target_ = target;
   target_since_s_ = held_s;
+  if (!slowed_down) return;
+  catch_up_ = CatchUp<double>(0.0);
+  const WinchMotion wanted = asked(now_s);
+  catch_up_.begin({before.length_m - wanted.length_m, before.rate_m_s - wanted.rate_m_s}, now_s);
 }
 
 void Winch::tick(double now_s) {
@@ -32,8 +39,10 @@ void Winch::tick(double now_s) {
 
 WinchMotion Winch::asked(double t_s) const {
   const ExtrapolationWeights w = extrapolate(t_s - target_since_s_);
-  return {target_.length_m + w.by_velocity * target_.rate_m_s + w.by_acceleration * target_.acceleration_m_s2,
-          w.rate_by_velocity * target_.rate_m_s + w.rate_by_acceleration * target_.acceleration_m_s2};
+  const auto left = catch_up_.at(t_s);
+  return {
+      left.value + target_.length_m + w.by_velocity * target_.rate_m_s + w.by_acceleration * target_.acceleration_m_s2,
+      left.rate + w.rate_by_velocity * target_.rate_m_s + w.rate_by_acceleration * target_.acceleration_m_s2};
 }
 
 WinchMotion Winch::at(double t_s) const {

@@ -10,9 +10,12 @@
 // The rate is linear within the tick because it must not jump: the cables' damping would turn a jump into a kick. The
 // feed-forward at the tick's end makes a constantly accelerated target free of steady error. The loop's poles are real
 // for T >= 2.92 h, so a shorter time constant is taken as three ticks. A winch without time constant and rate limit is
-// exact: it has paid out what is asked for, at all times.
+// exact: it has paid out what is asked for, at all times. After a silence that made it slow down, either catches up
+// (catch_up.hpp).
 
 #include <optional>
+
+#include "simulator/core/catch_up.hpp"
 
 namespace gyre::simulator {
 
@@ -37,7 +40,8 @@ class Winch {
  public:
   Winch(double rest_length_m, const WinchSettings& settings);
 
-  void command(const WinchTarget& target, double held_s);
+  /// From `now` on follows a target that held at `held` <= now.
+  void command(const WinchTarget& target, double held_s, double now_s);
 
   /// Decides the motion from `now` until the next tick; once per tick, in order.
   void tick(double now_s);
@@ -54,6 +58,8 @@ class Winch {
   double tick_s_;
   WinchTarget target_;
   double target_since_s_ = 0.0;
+  bool led_ = false;
+  CatchUp<double> catch_up_{0.0};
   WinchMotion begin_;  // at tick_since_s_
   double acceleration_m_s2_ = 0.0;
   double tick_since_s_ = 0.0;

@@ -92,6 +92,52 @@ TEST(CarrierFollower, ComesToRestWhenSetpointsStop) {
   EXPECT_LT((follower.at(600.0).position_w_m - circle(0.0).position_w_m).norm(), 2.5);
 }
 
+/// Led along the circle, not led for `silence_s`, led again; `see(before, after, dt_s)` every millisecond.
+template <class See>
+CarrierFollower led_again(double silence_s, See see) {
+  CarrierFollower follower(circle(0.0).position_w_m, std::nullopt);
+  follower.command(circle(0.0), 0.0, 0.0);
+  const double end_s = silence_s + 2.0 * kCatchUp_s;
+  for (double t_s = 0.0; t_s < end_s; t_s += 0.001) {
+    const CarrierMotion before = follower.at(t_s);
+    if (t_s >= silence_s) follower.command(circle(t_s), t_s, t_s);
+    see(before, follower.at(t_s + 0.001), 0.001);
+  }
+  EXPECT_LT((follower.at(end_s).position_w_m - circle(end_s).position_w_m).norm(), 1e-5) << "it has caught up";
+  return follower;
+}
+
+TEST(CarrierFollower, CatchesUpWithoutALeapAfterItHadSlowedDown) {
+  for (const double silence_s : {1.1, 2.0, 7.0}) {
+    led_again(silence_s, [silence_s](const CarrierMotion& before, const CarrierMotion& after, double dt_s) {
+      const Vector3d mean = 0.5 * (before.velocity_w_m_s + after.velocity_w_m_s);
+      ASSERT_LT((after.position_w_m - before.position_w_m - dt_s * mean).norm(), 1e-5) << silence_s;
+      ASSERT_LT((after.velocity_w_m_s - before.velocity_w_m_s).norm(), 0.01) << silence_s;
+    });
+  }
+}
+
+TEST(CarrierFollower, LeapsWhereSetpointsDoAndNobodyWasSilent) {
+  double leap = 0.0;
+  led_again(0.9, [&leap](const CarrierMotion& before, const CarrierMotion& after, double /*dt_s*/) {
+    leap = std::max(leap, (after.position_w_m - before.position_w_m).norm());
+  });
+  EXPECT_GT(leap, 0.05) << "an exact carrier is where its setpoints are, and the load feels what they do";
+}
+
+TEST(Winch, CatchesUpAsTheCarrierDoes) {
+  Winch winch(1.0, {});
+  winch.command({1.0, 0.1, 0.0}, 0.0, 0.0);
+  double before = winch.at(5.0).length_m;
+  for (int tick = 0; tick < 4000; ++tick) {
+    const double t_s = 5.0 + 0.001 * tick;
+    winch.command({2.0, 0.0, 0.0}, t_s, t_s);
+    EXPECT_LT(std::abs(winch.at(t_s).length_m - before), 0.001);
+    before = winch.at(t_s).length_m;
+  }
+  EXPECT_DOUBLE_EQ(before, 2.0);
+}
+
 struct WinchRun {
   double worst_error_m = 0.0;
   double fastest_m_s = 0.0;
@@ -103,7 +149,7 @@ WinchRun run(Winch& winch, Target target, double until_s, double settled_s) {
   WinchRun out;
   for (int tick = 0; tick * 0.002 < until_s; ++tick) {
     const double t_s = tick * 0.002;
-    if (tick % 5 == 0) winch.command(target(t_s), t_s);
+    if (tick % 5 == 0) winch.command(target(t_s), t_s, t_s);
     winch.tick(t_s);
     for (const double within_s : {0.0, 0.001, 0.002}) {
       const WinchMotion m = winch.at(t_s + within_s);
@@ -142,7 +188,7 @@ TEST(Winch, NeverTurnsFasterThanItsLimitAndArrivesAllTheSame) {
 
 TEST(Winch, RateIsContinuous) {
   Winch winch(1.0, {0.05, std::nullopt, 0.002});
-  winch.command({1.2, 0.1, 0.0}, 0.0);
+  winch.command({1.2, 0.1, 0.0}, 0.0, 0.0);
   for (int tick = 0; tick < 100; ++tick) {
     const double t_s = 0.002 * tick;
     const WinchMotion before = winch.at(t_s);
@@ -154,7 +200,7 @@ TEST(Winch, RateIsContinuous) {
 
 TEST(Winch, AShortTimeConstantDoesNotOscillate) {
   Winch winch(1.0, {1e-6, std::nullopt, 0.002});
-  winch.command({1.1, 0.0, 0.0}, 0.0);
+  winch.command({1.1, 0.0, 0.0}, 0.0, 0.0);
   double before = 1.0;
   for (int tick = 0; tick < 200; ++tick) {
     winch.tick(0.002 * tick);
@@ -168,7 +214,7 @@ TEST(Winch, AShortTimeConstantDoesNotOscillate) {
 
 TEST(Winch, WithoutTimeConstantAndLimitIsExact) {
   Winch winch(1.0, {});
-  winch.command({2.0, 0.5, 0.0}, 1.0);
+  winch.command({2.0, 0.5, 0.0}, 1.0, 1.0);
   EXPECT_DOUBLE_EQ(winch.at(1.2).length_m, 2.1);
 }
 

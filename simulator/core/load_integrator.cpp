@@ -23,6 +23,33 @@ constexpr long kMaxSteps = 20000;
 /// A cable that snaps taut is a jump of the force; finding it takes more halvings than CVODE allows by default.
 constexpr int kMaxFailures = 50;
 
+// SUNDIALS 7 (Debian 13) has a name for the communicator that 6 (Debian 12) takes as a null pointer, and sends its
+// complaints by context where 6 sends them by integrator. Left alone, both write to the standard error stream; a core
+// does not.
+#if SUNDIALS_VERSION_MAJOR >= 7
+SUNComm no_communicator() {
+  return SUN_COMM_NULL;
+}
+void remember(int /*line*/, const char* /*function*/, const char* /*file*/, const char* text, SUNErrCode /*code*/,
+              void* complaint, SUNContext /*context*/) {
+  *static_cast<std::string*>(complaint) = text;
+}
+int send_complaints(SUNContext context, void* /*cvode*/, std::string& to) {
+  SUNContext_ClearErrHandlers(context);  // the one that writes
+  return SUNContext_PushErrHandler(context, &remember, &to);
+}
+#else
+void* no_communicator() {
+  return nullptr;
+}
+void remember(int /*code*/, const char* /*module*/, const char* /*function*/, char* text, void* complaint) {
+  *static_cast<std::string*>(complaint) = text;
+}
+int send_complaints(SUNContext /*context*/, void* cvode, std::string& to) {
+  return CVodeSetErrHandlerFn(cvode, &remember, &to);
+}
+#endif
+
 struct FreeContext {
   void operator()(SUNContext context) const { SUNContext_Free(&context); }
 };
@@ -44,7 +71,7 @@ using Owned = std::unique_ptr<std::remove_pointer_t<Pointer>, Free>;
 
 SUNContext new_context() {
   SUNContext context = nullptr;
-  GYRE_ENSURE(SUNContext_Create(nullptr, &context) == 0, "SUNDIALS gives a context");
+  GYRE_ENSURE(SUNContext_Create(no_communicator(), &context) == 0, "SUNDIALS gives a context");
   return context;
 }
 
@@ -77,7 +104,7 @@ struct LoadIntegrator::Solver {
                        CVodeSetLinearSolver(cvode.get(), linear.get(), matrix.get()) == CV_SUCCESS &&
                        CVodeSetJacFn(cvode.get(), &jacobian) == CV_SUCCESS &&
                        CVodeSetUserData(cvode.get(), this) == CV_SUCCESS &&
-                       CVodeSetErrHandlerFn(cvode.get(), &remember, this) == CV_SUCCESS &&
+                       send_complaints(context.get(), cvode.get(), complaint) == CV_SUCCESS &&
                        CVodeSetMaxNumSteps(cvode.get(), kMaxSteps) == CV_SUCCESS &&
                        CVodeSetMaxErrTestFails(cvode.get(), kMaxFailures) == CV_SUCCESS &&
                        CVodeSetMaxConvFails(cvode.get(), kMaxFailures) == CV_SUCCESS;
@@ -99,11 +126,6 @@ struct LoadIntegrator::Solver {
     Eigen::Map<StateMatrix> matrix(SUNDenseMatrix_Data(out));
     self.dynamics.jacobian(state_of(y), self.now, matrix);
     return matrix.allFinite() ? 0 : 1;
-  }
-
-  /// CVODE would write to the standard error stream; a core does not.
-  static void remember(int /*code*/, const char* /*module*/, const char* /*function*/, char* text, void* user) {
-    static_cast<Solver*>(user)->complaint = text;
   }
 
   /// True when it got there.

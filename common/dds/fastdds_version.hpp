@@ -1,17 +1,26 @@
 #pragma once
-// The names that differ between Fast DDS releases, in one place: a port to 3.x changes this header, the generator's
-// options in idl/CMakeLists.txt, and nothing outside common/dds.
+// Every name that Fast DDS 2.9 (Debian 12) and 3.1 (Debian 13) spell differently, once. A third release changes this
+// header, the generator's options in idl/CMakeLists.txt, and nothing else.
 //
-// This is 2.9 (Debian 12). In 3.x the headers end in .hpp, eprosima::fastrtps::rtps is eprosima::fastdds::rtps,
-// payloads are passed by reference, profiles are called differently, and write() answers a return code instead of a
-// bool.
+// What travels is the same on both: plain CDR (XCDR1, both releases' default for writers and readers), the same topic
+// and type names, no type information in discovery. So processes built on one fly with processes built on the other.
 
+#if __has_include(<fastdds/LibrarySettings.hpp>)
+#define GYRE_FASTDDS_3
+#include <fastdds/rtps/attributes/RTPSParticipantAttributes.hpp>
+#include <fastdds/rtps/common/SerializedPayload.hpp>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>
+#include <fastdds/utils/IPLocator.hpp>
+#include <gyre_idl/gyre_msgs.hpp>
+#include <gyre_idl/gyre_msgsPubSubTypes.hpp>
+#else
 #include <fastdds/rtps/attributes/RTPSParticipantAttributes.h>
 #include <fastdds/rtps/common/SerializedPayload.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <gyre_idl/gyre_msgs.h>
 #include <gyre_idl/gyre_msgsPubSubTypes.h>
+#endif
 
 #include <cstdint>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -24,35 +33,95 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
+#include <string>
 
 namespace gyre::dds::fast {
 
 namespace api = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
 namespace idl = gyre_msgs::msg;
-
-using Payload = rtps::SerializedPayload_t*;  // 3.x: a reference
-using Time = eprosima::fastrtps::Duration_t;
-using LocatorList = rtps::LocatorList_t;
 using UdpTransport = eprosima::fastdds::rtps::UDPv4TransportDescriptor;
 
+// ---- 3.1: one namespace, payloads by reference, return codes everywhere, the representation named in every call
+#ifdef GYRE_FASTDDS_3
+
+namespace rtps = eprosima::fastdds::rtps;
+
+using Payload = rtps::SerializedPayload_t&;
+using Time = api::Duration_t;
+
+inline constexpr api::ReturnCode_t kOk = api::RETCODE_OK;
+inline constexpr api::DataRepresentationId_t kXcdr1 = api::DataRepresentationId_t::XCDR_DATA_REPRESENTATION;
+
+[[nodiscard]] inline Payload passed(rtps::SerializedPayload_t& payload) {
+  return payload;
+}
+[[nodiscard]] inline std::uint32_t payload_length(Payload payload) {
+  return payload.length;
+}
+
+/// Bytes of the sample on the wire, encapsulation header included, without the padding that may follow.
+template <class Support>
+[[nodiscard]] std::uint32_t wire_size(Support& support, const typename Support::type& sample) {
+  return support.calculate_serialized_size(&sample, kXcdr1);
+}
+
+template <class Support>
+[[nodiscard]] bool serialize(Support& support, typename Support::type& sample, Payload payload) {
+  return support.serialize(&sample, payload, kXcdr1);
+}
+
+[[nodiscard]] inline bool write(api::DataWriter& writer, void* sample) {
+  return writer.write(sample) == kOk;
+}
+
+[[nodiscard]] inline Time& heartbeat_period(api::DataWriterQos& qos) {
+  return qos.reliable_writer_qos().times.heartbeat_period;
+}
+
+// ---- 2.9: two namespaces, payloads by pointer, and a write() that answers true where 3.1 answers 0
+#else
+
+namespace rtps = eprosima::fastrtps::rtps;
+
+using Payload = rtps::SerializedPayload_t*;
+using Time = eprosima::fastrtps::Duration_t;
+
+inline constexpr auto kOk = eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
+
+[[nodiscard]] inline Payload passed(rtps::SerializedPayload_t& payload) {
+  return &payload;
+}
 [[nodiscard]] inline std::uint32_t payload_length(Payload payload) {
   return payload->length;
 }
 
 /// Bytes of the sample on the wire, encapsulation header included, without the padding that may follow.
-template <class Type>
-[[nodiscard]] std::uint32_t wire_size(const Type& sample) {
+template <class Support>
+[[nodiscard]] std::uint32_t wire_size(Support& /*support*/, const typename Support::type& sample) {
   constexpr std::uint32_t kEncapsulationBytes = 4;
-  return kEncapsulationBytes + static_cast<std::uint32_t>(Type::getCdrSerializedSize(sample));
+  return kEncapsulationBytes + static_cast<std::uint32_t>(Support::type::getCdrSerializedSize(sample));
+}
+
+template <class Support>
+[[nodiscard]] bool serialize(Support& support, typename Support::type& sample, Payload payload) {
+  return support.serialize(&sample, payload);
 }
 
 [[nodiscard]] inline bool write(api::DataWriter& writer, void* sample) {
   return writer.write(sample);
 }
 
+[[nodiscard]] inline Time& heartbeat_period(api::DataWriterQos& qos) {
+  return qos.reliable_writer_qos().times.heartbeatPeriod;
+}
+
+#endif
+// ---- the same on both
+
+using LocatorList = rtps::LocatorList_t;
+
 [[nodiscard]] inline bool take(api::DataReader& reader, void* sample, api::SampleInfo& info) {
-  return reader.take_next_sample(sample, &info) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
+  return reader.take_next_sample(sample, &info) == kOk;
 }
 
 /// Port 0: Fast DDS derives the ports from the domain and the participant ids it tries.

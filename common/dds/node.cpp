@@ -135,7 +135,7 @@ Writer<Message> Node::writer(std::optional<CarrierId> carrier) {
   set_common(qos, kDelivery, writer_depth(kDelivery));
   qos.publish_mode().kind = fast::api::SYNCHRONOUS_PUBLISH_MODE;
   // The default of 3 s makes one lost packet cost half a second.
-  qos.reliable_writer_qos().times.heartbeatPeriod = fast::Time(0, 30'000'000);
+  fast::heartbeat_period(qos) = fast::Time(0, 30'000'000);
 
   auto state = std::make_shared<typename Writer<Message>::State>();
   state->writer = impl_->participant.publisher().create_datawriter(impl_->topic<Message>(carrier), qos);

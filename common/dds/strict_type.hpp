@@ -35,7 +35,7 @@ class StrictType final : public Support {
     }
     // RTPS pads a payload to a multiple of four, and not every vendor says by how much.
     constexpr std::uint32_t kMaxPadding = 3;
-    const std::uint32_t expected = fast::wire_size(*static_cast<const typename Support::type*>(sample));
+    const std::uint32_t expected = fast::wire_size(*this, *static_cast<const typename Support::type*>(sample));
     const std::uint32_t length = fast::payload_length(payload);
     return length >= expected && length <= expected + kMaxPadding;
   }

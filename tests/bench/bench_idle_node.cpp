@@ -5,39 +5,30 @@
 //   reply bench_idle_node world SECONDS [DOMAIN]   the other side: sends phase 50 Hz, state 100 Hz, reply 8 Hz; reads
 //   the rest
 //
-// Run both; each prints what it cost. Written against Fast DDS itself, so that nothing of common/dds is in the floor.
+// Run both; each prints what it cost. Written against Fast DDS itself, so that nothing of common/dds but its names is
+// in the floor.
 
-#include <gyre_idl/gyre_msgs.h>
-#include <gyre_idl/gyre_msgsPubSubTypes.h>
 #include <sys/resource.h>
 
 #include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/publisher/DataWriter.hpp>
-#include <fastdds/dds/publisher/Publisher.hpp>
-#include <fastdds/dds/subscriber/DataReader.hpp>
-#include <fastdds/dds/subscriber/DataReaderListener.hpp>
-#include <fastdds/dds/subscriber/SampleInfo.hpp>
-#include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/topic/Topic.hpp>
-#include <fastdds/dds/topic/TypeSupport.hpp>
 #include <fstream>
 #include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "common/dds/fastdds_version.hpp"
 #include "tests/bench/bare_participant.hpp"
 
 namespace {
 
 using gyre::bench::open_bare_participant;
-namespace fast = eprosima::fastdds::dds;
-namespace idl = gyre_msgs::msg;
+namespace fast = gyre::dds::fast::api;
+namespace idl = gyre::dds::fast::idl;
+using gyre::dds::fast::kOk;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kTicksPerSecond = 100;
@@ -60,7 +51,7 @@ template <class Support>
 fast::DataWriter* writer(fast::DomainParticipant& participant, fast::Publisher& publisher, const char* name,
                          bool reliable = false) {
   fast::DataWriterQos qos = with_delivery(fast::DATAWRITER_QOS_DEFAULT, reliable);
-  qos.reliable_writer_qos().times.heartbeatPeriod = {0, 30'000'000};
+  gyre::dds::fast::heartbeat_period(qos) = {0, 30'000'000};
   return publisher.create_datawriter(topic<Support>(participant, name), qos);
 }
 
@@ -80,7 +71,7 @@ class Reader final : public fast::DataReaderListener {
   void on_data_available(fast::DataReader* reader) override {
     typename Support::type sample;
     fast::SampleInfo info;
-    while (reader->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
+    while (reader->take_next_sample(&sample, &info) == kOk) {
       if (count_++ == 0) first_s_ = std::chrono::duration<double>(Clock::now() - created_).count();
     }
   }

@@ -4,36 +4,29 @@
 //   bench_idle_star hub N         sits where the coordinator sits; prints "matched" when it has found all of N spokes
 //   bench_idle_star spoke I       sits where the agent of carrier I sits
 //
-// Both run until they are killed. Written against Fast DDS itself, so that nothing of common/dds is in the floor.
+// Both run until they are killed. Written against Fast DDS itself, so that nothing of common/dds but its names is in
+// the floor.
 
-#include <gyre_idl/gyre_msgs.h>
-#include <gyre_idl/gyre_msgsPubSubTypes.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/publisher/DataWriter.hpp>
-#include <fastdds/dds/publisher/Publisher.hpp>
-#include <fastdds/dds/subscriber/DataReader.hpp>
-#include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/topic/Topic.hpp>
-#include <fastdds/dds/topic/TypeSupport.hpp>
 #include <map>
 #include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "common/dds/fastdds_version.hpp"
 #include "tests/bench/bare_participant.hpp"
 
 namespace {
 
 using gyre::bench::open_bare_participant;
-namespace fast = eprosima::fastdds::dds;
-namespace idl = gyre_msgs::msg;
+namespace fast = gyre::dds::fast::api;
+namespace idl = gyre::dds::fast::idl;
+using gyre::dds::fast::kOk;
 
 class Star {
  public:
@@ -47,7 +40,7 @@ class Star {
     fast::DataWriterQos qos = fast::DATAWRITER_QOS_DEFAULT;
     qos.reliability().kind = reliable ? fast::RELIABLE_RELIABILITY_QOS : fast::BEST_EFFORT_RELIABILITY_QOS;
     qos.data_sharing().off();
-    qos.reliable_writer_qos().times.heartbeatPeriod = {0, 30'000'000};
+    gyre::dds::fast::heartbeat_period(qos) = {0, 30'000'000};
     writers_.push_back(publisher_->create_datawriter(topic<Support>(name), qos));
   }
   template <class Support>
@@ -63,11 +56,11 @@ class Star {
     int count = 0;
     for (fast::DataWriter* writer : writers_) {
       fast::PublicationMatchedStatus status;
-      if (writer->get_publication_matched_status(status) == ReturnCode_t::RETCODE_OK) count += status.current_count;
+      if (writer->get_publication_matched_status(status) == kOk) count += status.current_count;
     }
     for (fast::DataReader* reader : readers_) {
       fast::SubscriptionMatchedStatus status;
-      if (reader->get_subscription_matched_status(status) == ReturnCode_t::RETCODE_OK) count += status.current_count;
+      if (reader->get_subscription_matched_status(status) == kOk) count += status.current_count;
     }
     return count;
   }

@@ -1,7 +1,6 @@
 // Real samples over real loopback sockets: every message between two nodes, and what strangers may send.
 
 #include <dirent.h>
-#include <fastrtps/xmlparser/XMLProfileManager.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <unistd.h>
@@ -19,6 +18,7 @@
 #include "common/dds/inbox.hpp"
 #include "common/dds/participant.hpp"
 #include "common/dds/topics.hpp"
+#include "tests/dds/any_bytes.hpp"
 #include "tests/dds/free_domain.hpp"
 #include "tests/dds/message_fields.hpp"
 
@@ -34,9 +34,11 @@ constexpr CarrierId kCarrier = 3;
 class Sockets : public testing::Environment {
  public:
   void SetUp() override {
-    eprosima::fastrtps::LibrarySettingsAttributes settings;
-    settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
-    eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
+    // Profiles are the one way to say so that every release of Fast DDS understands.
+    const std::string profile =
+        "<dds><library_settings><intraprocess_delivery>OFF</intraprocess_delivery></library_settings></dds>";
+    auto* const factory = dds::fast::api::DomainParticipantFactory::get_instance();
+    ASSERT_TRUE(factory->load_XML_profiles_string(profile.data(), profile.size()) == dds::fast::kOk);
   }
 };
 // NOLINTNEXTLINE(cert-err58-cpp): GoogleTest takes environments at static time when it brings its own main
@@ -216,27 +218,6 @@ TEST(Node, LeavesItsWritersHarmless) {
   dds::Writer<Beacon>().write({});
 }
 
-/// A type support that sends whatever bytes it is given, as a stranger would under our type's name.
-class AnyBytes final : public dds::fast::api::TopicDataType {
- public:
-  using Bytes = std::vector<unsigned char>;
-
-  AnyBytes() { m_typeSize = 1024; }
-  bool serialize(void* data, dds::fast::Payload payload) override {
-    const auto& bytes = *static_cast<const Bytes*>(data);
-    std::copy(bytes.begin(), bytes.end(), payload->data);
-    payload->length = static_cast<std::uint32_t>(bytes.size());
-    return true;
-  }
-  bool deserialize(dds::fast::Payload, void*) override { return false; }
-  std::function<std::uint32_t()> getSerializedSizeProvider(void*) override {
-    return [] { return 1024U; };
-  }
-  void* createData() override { return new Bytes; }
-  void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
-  bool getKey(void*, dds::fast::rtps::InstanceHandle_t*, bool) override { return false; }
-};
-
 TEST(Node, CountsAStrangersBytesAndGoesOnListening) {
   dds::NodeOptions options;
   dds::Inbox<Beacon> inbox;
@@ -248,7 +229,7 @@ TEST(Node, CountsAStrangersBytesAndGoesOnListening) {
   auto opened = dds::Participant::open(options);
   ASSERT_TRUE(opened);
   dds::Participant stranger = std::move(opened).value();
-  const dds::fast::api::TypeSupport type(new AnyBytes);
+  const dds::fast::api::TypeSupport type(new tests::AnyBytes);
   type.register_type(stranger.get(), dds::kTopic<Beacon>.type);
   auto* topic = stranger->create_topic("rt/gyre/phase", dds::kTopic<Beacon>.type, dds::fast::api::TOPIC_QOS_DEFAULT);
   dds::fast::api::DataWriterQos qos = dds::fast::api::DATAWRITER_QOS_DEFAULT;
@@ -256,21 +237,21 @@ TEST(Node, CountsAStrangersBytesAndGoesOnListening) {
   auto* writer = stranger.publisher().create_datawriter(topic, qos);
 
   // term, sequence, time, revision, base plan: 56 bytes, then a list of four thousand million transitions.
-  AnyBytes::Bytes endless(4 + 56, 0);
+  tests::AnyBytes::Bytes endless(4 + 56, 0);
   endless[1] = 1;
   endless.insert(endless.end(), 4, 0xFF);
-  const std::vector<AnyBytes::Bytes> nonsense = {
+  const std::vector<tests::AnyBytes::Bytes> nonsense = {
       {},
       {0},
       {0, 1, 0, 0},
       {9, 9, 9, 9, 1, 2, 3},                 // no encapsulation there is
       {0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0},  // stops early
       endless,
-      AnyBytes::Bytes(1000, 0xFF),  // over the type's bound: Fast DDS drops it itself
+      tests::AnyBytes::Bytes(1000, 0xFF),  // over the type's bound: Fast DDS drops it itself
   };
   const LocalTime deadline = dds::now() + 10s;
   while (node->counters().undecodable < 20 && dds::now() < deadline) {
-    for (AnyBytes::Bytes bytes : nonsense) static_cast<void>(dds::fast::write(*writer, &bytes));
+    for (tests::AnyBytes::Bytes bytes : nonsense) static_cast<void>(dds::fast::write(*writer, &bytes));
     EXPECT_TRUE(inbox.wait_until(dds::now() + 5ms).empty());
   }
   EXPECT_GE(node->counters().undecodable, 20U);

@@ -31,12 +31,10 @@ void add_network_options(CLI::App& app, NetworkOptions& options) {
 Result<NodeOptions> node_options(const NetworkOptions& options, Seat seat) {
   const Result<int> domain = choose_domain(options.domain);
   if (!domain) return domain.error();
-  const Result<std::string> interface = interface_address(options.interface);
-  if (!interface) return Error{"--interface (or GYRE_INTERFACE): " + interface.error().text};
   for (const std::string& peer : options.peers) {
     if (!is_ipv4(peer)) return no_address(peer);
   }
-  return NodeOptions{seat, domain.value(), interface.value(), options.peers};
+  return NodeOptions{seat, domain.value(), options.interface, options.peers};
 }
 
 }  // namespace gyre::dds

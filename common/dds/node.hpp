@@ -35,7 +35,7 @@ struct Seat {
 struct NodeOptions {
   Seat seat;
   int domain = 0;                       ///< 0..100
-  std::string interface = "127.0.0.1";  ///< IPv4 address of the one interface to use
+  std::string interface = "127.0.0.1";  ///< the one to use, by its IPv4 address or its name
   std::vector<std::string> peers;       ///< further hosts (IPv4) where hubs may sit; the own interface is always one
 };
 

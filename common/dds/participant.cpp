@@ -171,15 +171,17 @@ Participant::Participant(Participant&& other) noexcept
       publisher_(other.publisher_),
       subscriber_(other.subscriber_) {}
 
-Result<Participant> Participant::open(const NodeOptions& options) {
+Result<Participant> Participant::open(const NodeOptions& asked) {
+  NodeOptions options = asked;
   const Result<int> domain = check_domain(options.domain, "the domain");
   if (!domain) return domain.error();
   for (const std::string& peer : options.peers) {
     if (!is_ipv4(peer)) return Error{"the peer \"" + peer + "\" is no IPv4 address such as 192.168.1.7"};
   }
-  if (!is_ipv4(options.interface)) {
-    return Error{"the interface \"" + options.interface + "\" is no IPv4 address such as 192.168.1.7"};
-  }
+  // Looked up at the last moment: at a machine's start a radio may still be waiting for its address.
+  Result<std::string> interface = interface_address(options.interface);
+  if (!interface) return Error{"the interface (--interface or GYRE_INTERFACE) " + interface.error().text};
+  options.interface = std::move(interface).value();
   Result<TakenSeat> seat = take_seat(options.seat, options.domain);
   if (!seat) return seat.error();
   TakenSeat taken = std::move(seat).value();

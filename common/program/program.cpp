@@ -18,7 +18,9 @@ void add_options(CLI::App& app, Options& options) {
 }
 
 CLI::Option* add_mission(CLI::App& app, std::string& path) {
-  return app.add_option("MISSION", path, "mission file, Protobuf text format (idl/mission.proto)")->required()->envname("GYRE_MISSION");
+  return app.add_option("MISSION", path, "mission file, Protobuf text format (idl/mission.proto)")
+      ->required()
+      ->envname("GYRE_MISSION");
 }
 
 std::optional<ExitCode> parse(CLI::App& app, int argc, char** argv) {

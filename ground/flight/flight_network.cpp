@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/dds/interface.hpp"
 #include "common/dds/seat_lock.hpp"
 
 namespace gyre::ground {
@@ -54,19 +55,22 @@ std::vector<std::string> FlightNetwork::arguments() const {
 
 Result<FlightNetwork, FlightNetworkError> open_flight_network(const dds::NetworkOptions& options,
                                                               const std::vector<CarrierId>& carriers) {
-  const Result<dds::NodeOptions> told = dds::node_options(options, {dds::Hub::kGround, std::nullopt});
-  if (!told) return FlightNetworkError{told.error().text, true};
+  const Result<dds::NodeOptions> read = dds::node_options(options, {dds::Hub::kGround, std::nullopt});
+  if (!read) return FlightNetworkError{read.error().text, true};
+  const Result<std::string> interface = dds::interface_address(read.value().interface);
+  if (!interface) return FlightNetworkError{"--interface (or GYRE_INTERFACE): " + interface.error().text, true};
+  dds::NodeOptions told = read.value();
+  told.interface = interface.value();
   const std::vector<NamedSeat> others = seats(carriers);
   if (options.domain || std::getenv("ROS_DOMAIN_ID") != nullptr) {
-    Result<FlightNetwork> network = open_at(told.value(), others);
+    Result<FlightNetwork> network = open_at(told, others);
     if (network) return std::move(network).value();
-    return FlightNetworkError{"domain " + std::to_string(told.value().domain) +
-                              " cannot be used: " + network.error().text +
+    return FlightNetworkError{"domain " + std::to_string(told.domain) + " cannot be used: " + network.error().text +
                               "; end that, or leave --domain (and ROS_DOMAIN_ID) out and a free one is taken"};
   }
   std::string last;
   for (int domain = 0; domain <= dds::kMaxDomain; ++domain) {
-    dds::NodeOptions candidate = told.value();
+    dds::NodeOptions candidate = told;
     candidate.domain = domain;
     // Looking first: opening a participant takes milliseconds, a taken seat is seen at once.
     const bool taken = dds::seat_holder(candidate.seat, domain).taken || obstacle(candidate, others).has_value();

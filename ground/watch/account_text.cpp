@@ -14,6 +14,7 @@ std::string account_line(const Account& account) {
         text("; load within %.3g mm and %.2g degrees, residual %.2g %% of the weight",
              1e3 * account.load.displacement_max_m, account.load.rotation_max_deg, 100.0 * account.load.residual_max);
   }
+  if (account.skew > std::chrono::hours(1)) return line + "; clocks unknown";
   line += text("; clocks within %.3g ms", 1e3 * seconds(account.skew));
   if (account.skew_budget > Duration::zero()) line += text(" of %.3g", 1e3 * seconds(account.skew_budget));
   return line;

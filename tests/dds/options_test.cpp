@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/base/log.hpp"
+#include "common/dds/interface.hpp"
 #include "common/dds/network_options.hpp"
 
 namespace gyre {
@@ -59,8 +60,12 @@ TEST_F(OptionsTest, TakeInterfaceAndPeersFromTheEnvironmentToo) {
             (std::vector<std::string>{"10.0.0.5", "10.0.0.6"}));
 }
 
-TEST_F(OptionsTest, TakeAnInterfaceByItsNameToo) {
-  EXPECT_EQ(parse({"--interface", "lo"}).value().interface, "127.0.0.1");
+TEST(Interface, IsFoundByItsNameAndAnAddressIsTakenAsItIs) {
+  EXPECT_EQ(dds::interface_address("lo").value(), "127.0.0.1");
+  EXPECT_EQ(dds::interface_address("192.0.2.1").value(), "192.0.2.1");
+  const std::string unknown = dds::interface_address("nosuch0").error().text;
+  EXPECT_NE(unknown.find("\"nosuch0\""), std::string::npos) << unknown;
+  EXPECT_NE(unknown.find("lo (127.0.0.1)"), std::string::npos) << "what there is: " << unknown;
 }
 
 TEST_F(OptionsTest, NameTheSourceOfAWrongDomainAndTheRange) {
@@ -78,9 +83,6 @@ TEST_F(OptionsTest, NameTheSourceOfAWrongDomainAndTheRange) {
 }
 
 TEST_F(OptionsTest, NameTheOptionOfAWrongAddress) {
-  const std::string unknown = parse({"--interface", "nosuch0"}).error().text;
-  EXPECT_NE(unknown.find("--interface"), std::string::npos) << unknown;
-  EXPECT_NE(unknown.find("lo (127.0.0.1)"), std::string::npos) << "what there is: " << unknown;
   EXPECT_NE(parse({"--peer", "10.0.0.300"}).error().text.find("\"10.0.0.300\""), std::string::npos);
 }
 

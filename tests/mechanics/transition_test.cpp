@@ -132,7 +132,7 @@ RC_GTEST_PROP(Mixture, a_complete_transition_hides_all_that_is_below, ()) {
 RC_GTEST_PROP(Mixture, the_derivatives_are_exact_through_the_whole_transition_and_its_ends, ()) {
   const Stack stack = random_stack(whole(2, 3));
   const TimedLayer& top = stack.times.back();
-  const double h = 2e-4;
+  const double h = 2e-5;
   // The third derivative jumps where a transition starts or ends, by sixty gaps over T cubed: there a difference of
   // rates is off by its step times that, so its step has to be short.
   const double h_rate = 2e-6;

@@ -166,6 +166,24 @@ TEST_F(FaultTest, TheCoordinatorIsKilledWhileItProposes) {
                          text("nobody moved; flying %.1f s after its start", *took)));
 }
 
+TEST_F(FaultTest, TheCoordinatorIsEndedByTheSystem) {
+  ASSERT_NO_FATAL_FAILURE(fly(mission()));
+  const std::uint64_t term = flight_->term();
+  flight_->send("coordinator", SIGTERM);
+  const auto ended = [&] { return flight_->said("coordinator").find("the agents fly on") != std::string::npos; };
+  ASSERT_TRUE(FaultFlight::seconds_until(kRecovery_s, ended)) << flight_->said("coordinator");
+  wait(1.0);
+  EXPECT_TRUE(flight_->every_agent([](const AgentStatus& s) { return s.state == AgentState::kAlone; }));
+  flight_->start_process("coordinator");
+  const auto took =
+      FaultFlight::seconds_until(kRecovery_s, [&] { return all_follow_a_term_above(term) && flight_->all_flying(); });
+  wait(2.0);
+  land();
+  ASSERT_TRUE(took) << flight_->said_by_all();
+  expect_unmoved(measure("coordinator ended by SIGTERM in motion, started again after 1 s",
+                         text("followed by all %.1f s after its start", *took)));
+}
+
 TEST_F(FaultTest, TheCoordinatorIsStopped) {
   ASSERT_NO_FATAL_FAILURE(fly(mission()));
   flight_->send("coordinator", SIGSTOP);

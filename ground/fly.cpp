@@ -15,6 +15,7 @@
 #include "ground/flight/flight_directory.hpp"
 #include "ground/flight/flight_programs.hpp"
 #include "ground/flight/flight_table.hpp"
+#include "ground/seconds_option.hpp"
 
 namespace gyre::ground {
 namespace {
@@ -101,18 +102,6 @@ int fly(const FlyOptions& options) {
   return fly_certified(options, mission.value());
 }
 
-/// CLI::Range would let NaN through.
-CLI::Validator a_duration() {
-  constexpr double kShortest_s = 0.1;
-  constexpr double kLongest_s = 7.0 * 86400.0;
-  const auto judge = [](const std::string& words) {
-    double value_s = 0.0;
-    const bool good = CLI::detail::lexical_cast(words, value_s) && value_s >= kShortest_s && value_s <= kLongest_s;
-    return good ? std::string() : words + " is no duration: give seconds from 0.1 to 604800 (a week)";
-  };
-  return {judge, "SECONDS"};
-}
-
 }  // namespace
 
 void add_fly(CLI::App& app, int& exit_code) {
@@ -121,7 +110,7 @@ void add_fly(CLI::App& app, int& exit_code) {
       "fly", "Fly a mission on this machine: coordinator, simulator and one agent per carrier, and a verdict.");
   program::add_mission(*command, options->mission);
   command->add_option("--duration", options->duration_s, "seconds of full motion (else one period of the mission)")
-      ->check(a_duration());
+      ->check(seconds_within("duration", 0.1, 7.0 * 86400.0));
   command->add_option("--logs", options->logs, "directory for one log per process; kept (else a temporary one)");
   command->add_flag("--keep-logs", options->keep_logs, "keep the logs of a good flight too");
   dds::add_network_options(*command, options->network);

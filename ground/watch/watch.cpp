@@ -14,6 +14,7 @@
 #include "common/dds/inbox.hpp"
 #include "common/program/program.hpp"
 #include "ground/command.hpp"
+#include "ground/seconds_option.hpp"
 #include "ground/watch/account_text.hpp"
 #include "ground/watch/swarm_watch.hpp"
 
@@ -118,17 +119,6 @@ int watch(const WatchOptions& options) {
   return kExitOk;
 }
 
-CLI::Validator a_period() {
-  constexpr double kShortest_s = 0.1;
-  constexpr double kLongest_s = 3600.0;
-  const auto judge = [](const std::string& words) {
-    double value_s = 0.0;
-    const bool good = CLI::detail::lexical_cast(words, value_s) && value_s >= kShortest_s && value_s <= kLongest_s;
-    return good ? std::string() : words + " is no period: give seconds from 0.1 to 3600";
-  };
-  return {judge, "SECONDS"};
-}
-
 }  // namespace
 
 void add_watch(CLI::App& app, int& exit_code) {
@@ -137,7 +127,7 @@ void add_watch(CLI::App& app, int& exit_code) {
       app.add_subcommand("watch", "Watch a swarm that flies: is it calm, and how far did the load move?");
   program::add_mission(*command, options->mission);
   command->add_option("--period", options->period_s, "seconds between lines (else 10, with --json 1)")
-      ->check(a_period())
+      ->check(seconds_within("period", 0.1, 3600.0))
       ->envname("GYRE_PERIOD");
   command->add_flag("--json", options->json, "one JSON object per period, for programs");
   program::add_options(*command, options->common);

@@ -78,8 +78,11 @@ TEST_F(FaultTest, EverythingIsOut) {
   ASSERT_TRUE(took);
   const Row& row = measure("everything out for 5 s at 0.1 rad/s, the way to the vehicles too",
                            text("all hear the coordinator again %.1f s after", *took));
-  // Vehicles that hear nothing stop by themselves, all alike, and are called back when they hear again.
-  EXPECT_LT(row.load.displacement_max_m, kSwing_m);
+  // Vehicles that hear nothing stop by themselves, all alike, and catch up when they hear again: not by a leap, which
+  // no vehicle can, but straight ahead, and so they cut the corner of the arc that they did not fly. Of 0.4 rad of a
+  // circle of half a metre to a metre that is 10 to 20 mm for each; the load feels their differences.
+  constexpr double kCutCorners_m = 0.05;
+  EXPECT_LT(row.load.displacement_max_m, kCutCorners_m);
   expect_continuous(row);
 }
 

@@ -20,7 +20,7 @@
 #include "common/dds/topics.hpp"
 #include "tests/dds/any_bytes.hpp"
 #include "tests/dds/free_domain.hpp"
-#include "tests/dds/message_fields.hpp"
+#include "tests/dds/random_messages.hpp"
 
 namespace gyre {
 namespace {
@@ -83,7 +83,7 @@ TYPED_TEST(EveryMessage, ArrivesBitForBit) {
       },
       carrier_of_topic<TypeParam>());
 
-  EXPECT_TRUE(rc::check([&] {
+  EXPECT_TRUE(tests::holds([&] {
     const auto message = tests::random_message<TypeParam>();
     const auto same = [&](const TypeParam& arrived) { return tests::bits_of(arrived) == tests::bits_of(message); };
     RC_ASSERT(wait_for(inbox, same, [&] { writer.write(message); }).has_value());

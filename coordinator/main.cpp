@@ -63,6 +63,7 @@ class Wire {
       offers_[carrier.id] = node.writer<protocol::PlanOffer>(carrier.id);
     }
     node.read<protocol::Beacon>([this](protocol::Beacon b, LocalTime) { inbox_.push(std::move(b)); });
+    node.read<protocol::Health>([this](protocol::Health h, LocalTime) { inbox_.push(std::move(h)); });
     node.read<protocol::Command>([this](protocol::Command c, LocalTime) { inbox_.push(std::move(c)); });
     for (const gyre::mechanics::Carrier& carrier : plan.carriers) {
       node.read<protocol::AgentStatus>([this](protocol::AgentStatus s, LocalTime) { inbox_.push(std::move(s)); },

@@ -83,6 +83,7 @@ SimulationSettings settings_of(const gyre::mission::Mission& mission) {
 }
 
 void report(const Outputs& out) {
+  gyre::log(out.notices);
   if (out.lag) {
     spdlog::warn("cannot keep real time: {:.3f} s behind{}", gyre::seconds(out.lag->behind),
                  out.lag->skipped > gyre::Duration{}

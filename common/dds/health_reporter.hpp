@@ -18,9 +18,8 @@ class HealthReporter {
   HealthReporter(Node& node, std::string process);
 
   /// Publishes when it is due: at the first call, kPeriod after the last publication, and when a complaint comes up or
-  /// is settled. Call it as often as the main
-  /// loop turns, because a loop that does not turn answers nobody. `dropped` are the core's counts, `overrun` the
-  /// inbox's.
+  /// is settled. Call it as often as the main loop turns, because a loop that does not turn answers nobody. `dropped`
+  /// are the core's counts, `overrun` the inbox's.
   void step(LocalTime now, const std::optional<std::string>& complaint, const protocol::DropCounts& dropped,
             std::uint64_t overrun);
 

@@ -168,7 +168,7 @@ struct CoordinatorStatus {
   std::string news;                 ///< the latest of what it has to tell; at most kMaxTextBytes
 };
 
-/// Topic health, every process to ground: whether it does its work, what it dropped, and why.
+/// Topic health, every process to ground and coordinator: whether it does its work, what it dropped, and why.
 struct Health {
   std::string process;    ///< "agent 3"; at most kMaxTextBytes
   std::string complaint;  ///< what keeps it from its work; empty: nothing does. At most kMaxTextBytes

@@ -30,6 +30,7 @@ Coordinator::Coordinator(const Job& job, const CoordinatorOptions& options)
       options_(options),
       carriers_(ids(job.plan)),
       fleet_(carriers_, options.agent_timeout),
+      readiness_(carriers_),
       engage_(options.engage_when_ready) {}
 
 Outputs Coordinator::step(LocalTime now, const Event& event) {
@@ -134,6 +135,10 @@ void Coordinator::on(LocalTime /*now*/, const protocol::Beacon& beacon, Outputs&
                     generation(beacon.term)),
                out);
   }
+}
+
+void Coordinator::on(LocalTime now, const protocol::Health& health, Outputs& /*out*/) {
+  readiness_.take(now, health);
 }
 
 void Coordinator::stand_down(const std::string& why, Outputs& out) {

@@ -24,6 +24,7 @@
 #include "coordinator/core/agreement.hpp"
 #include "coordinator/core/fleet.hpp"
 #include "coordinator/core/plan_book.hpp"
+#include "coordinator/core/readiness.hpp"
 #include "coordinator/core/recovery.hpp"
 
 namespace gyre::coordinator {
@@ -51,6 +52,7 @@ struct CoordinatorOptions {
   Duration freezing = std::chrono::seconds(2);
   Duration turning_back = std::chrono::seconds(2);
   Duration start_check = std::chrono::milliseconds(300);  ///< after a start, to see that everybody follows
+  Duration patience = std::chrono::seconds(1);            ///< with complaints that are only late, before they are told
   /// How far a vehicle goes on along its path after its last setpoint (simulator: 1 s, then 2 s to rest).
   Duration coasting = std::chrono::seconds(2);
   AgreementOptions agreement;
@@ -70,7 +72,7 @@ struct Retune {
 /// End the flight: back to rest, then finish.
 struct Shutdown {};
 using Event = std::variant<Tick, protocol::AgentStatus, protocol::HeldPlans, TimeRequestArrived, protocol::Command,
-                           Retune, protocol::Beacon, Shutdown>;
+                           Retune, protocol::Beacon, protocol::Health, Shutdown>;
 
 struct Outcome {
   bool clean = true;
@@ -108,6 +110,7 @@ class Coordinator {
   void on(LocalTime now, const protocol::Command& command, Outputs& out);
   void on(LocalTime now, const Retune& retune, Outputs& out);
   void on(LocalTime now, const protocol::Beacon& beacon, Outputs& out);
+  void on(LocalTime now, const protocol::Health& health, Outputs& out);
   void on(LocalTime now, const Shutdown& shutdown, Outputs& out);
 
   [[nodiscard]] bool heard_before(std::uint64_t command, Outputs& out);
@@ -151,6 +154,7 @@ class Coordinator {
   CoordinatorOptions options_;
   std::vector<CarrierId> carriers_;
   Fleet fleet_;
+  Readiness readiness_;
   Recovery recovery_;
   PlanBook plans_;
   Duration swarm_offset_{};     ///< swarm time − this process's clock
@@ -178,6 +182,7 @@ class Coordinator {
   LocalTime next_tick_ = LocalTime::min();  // a clock may well begin below zero
   LocalTime next_status_ = LocalTime::min();
   LocalTime retry_at_ = LocalTime::min();
+  std::optional<LocalTime> not_ready_since_;  ///< all agents are, and somebody complains
   bool engage_ = false;
   bool frozen_for_loss_ = false;  ///< the loss that there is has been acted on
   bool shutting_down_ = false;

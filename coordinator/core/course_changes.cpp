@@ -104,6 +104,8 @@ std::optional<std::string> Coordinator::obstacle(LocalTime now, const PlanNumber
   if (!gone.empty() && job_.on_agent_loss == AgentLoss::kFreeze && moves(to)) {
     return list(gone) + (gone.size() == 1 ? " is" : " are") + " lost, and the mission flies with all or not at all";
   }
+  // In motion it is too late to be choosy: whatever a person asks for then is better than what is.
+  if (const auto complaint = readiness_.complaint(now); complaint && moves(to) && !moving()) return complaint;
   const Duration budget = skew_budget(to);
   if (budget > Duration::zero() && skew(now) > budget) {
     return text("the clocks may disagree by %.3g ms, the plan allows %.3g ms", 1e3 * seconds(skew(now)),
@@ -163,6 +165,12 @@ void Coordinator::drive(LocalTime now, Outputs& out) {
            s.state == protocol::AgentState::kReady;
   };
   if (!refusal_of(motion_) && !fleet_.missing(now, ready).empty()) return;
+  if (!readiness_.complaint(now)) {
+    not_ready_since_.reset();
+  } else if (!not_ready_since_) {
+    not_ready_since_ = now;
+  }
+  if (not_ready_since_ && now - *not_ready_since_ < options_.patience) return;
   if (const auto why = obstacle(now, motion_)) {
     const std::string told = "the motion does not begin: " + *why;
     if (told != news_) tell(out, Notice::Level::kWarning, told);

@@ -91,8 +91,8 @@ struct Simulator::World {
   [[nodiscard]] LocalTime time() const { return start + simulated(); }
 
   void receive(LocalTime arrived, const protocol::Setpoint& setpoint, Outputs& out) {
-    if (auto text = judge.objection(setpoint, arrived)) {
-      latest_objection = std::move(*text);
+    if (auto objection = judge.objection(setpoint, arrived)) {
+      latest_objection = std::move(*objection);
       unreported_drops = true;
     } else {
       if (waiting.size() == kMaxWaitingSetpoints) {
@@ -102,6 +102,9 @@ struct Simulator::World {
         unreported_drops = true;
       }
       Vehicle& vehicle = vehicles[index.at(setpoint.carrier)];
+      if (!vehicle.led.ever_heard()) {
+        out.notices.push_back({Notice::Level::kInfo, text("carrier %u is led by its agent", setpoint.carrier)});
+      }
       vehicle.led.heard(arrived);
       const Duration age = vehicle.ages.age(setpoint.swarm_time, arrived);
       waiting.push_back({arrived, arrived - age, setpoint});

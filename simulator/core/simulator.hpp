@@ -24,6 +24,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/base/notice.hpp"
 #include "common/base/result.hpp"
 #include "common/base/time.hpp"
 #include "common/mechanics/plan.hpp"
@@ -69,6 +70,7 @@ struct Outputs {
   std::optional<LagReport> lag;
   std::optional<DropReport> dropped;
   std::optional<Error> failure;
+  Notices notices;
 };
 
 class Simulator {

@@ -1,6 +1,7 @@
 #include "agent/core/agent.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/base/text.hpp"
 #include "common/protocol/course.hpp"
@@ -12,6 +13,10 @@ namespace gyre::agent {
 using protocol::Stage;
 
 namespace {
+
+constexpr double kTurn = 2.0 * M_PI;
+/// A motion slower than that is as good as none.
+constexpr double kLongestPeriod_s = 3600.0;
 
 MergeLimits merge_limits(const mechanics::Limits& vehicle) {
   const MergeLimits cautious;
@@ -25,6 +30,12 @@ Command command_of(const mechanics::Reference& r, double stiffness_n_m) {
   Command command{r.position_w_m, r.length_m};
   if (stiffness_n_m > 0.0) command.winch_m = command.winch_m - (1.0 / stiffness_n_m) * r.tension_n;
   return command;
+}
+
+/// Whether it is one plan's motion and nothing else, now and before.
+bool plain(const protocol::Course& course) {
+  return std::none_of(course.transitions.begin(), course.transitions.end(),
+                      [](const protocol::Transition& t) { return t.stage == Stage::kGo; });
 }
 
 /// Where a carrier is `age_s` after it said so.
@@ -68,7 +79,7 @@ void Agent::on(LocalTime now, const Tick& /*tick*/, Outputs& out) {
   if (time) {
     protocol::settle(course_, *time);
     const auto r = reference(course_, *time);
-    if (r && back_at_the_vehicle(now, *r)) out.setpoint = setpoint(*time, *r);
+    if (r && back_at_the_vehicle(now)) out.setpoint = setpoint(*time, *r);
   }
   const bool alone = coordinator_.ever_heard() && coordinator_.silent(now);
   if (alone != alone_) {
@@ -143,38 +154,48 @@ void Agent::adopt(LocalTime now, const protocol::Course& course, Outputs& out) {
   const std::optional<SwarmTime> time = swarm_time(now);
   if (!time) return;
   const bool newer = term_ > course_term_ || course.revision > course_.revision || course_.base.number.none();
-  const auto wanted = newer ? reference(course, *time) : std::nullopt;
+  protocol::Course wanted = course;
+  protocol::settle(wanted, *time);
   // Without one of its plans there is no reference: a course is flown whole or not at all.
-  if (wanted && merge_to(now, course, *wanted)) {
-    course_ = course;
+  if (newer && reference(wanted, *time) && merge_to(now, wanted)) {
+    course_ = wanted;
     course_term_ = term_;
-    protocol::settle(course_, *time);
   }
   const std::uint64_t confirmed_before = confirmed_;
   confirm_proposal(*time);
   if (confirmed_ != confirmed_before) out.status = status(now);
 }
 
-bool Agent::merge_to(LocalTime now, const protocol::Course& course, const mechanics::Reference& wanted) {
+Path Agent::path(const protocol::Course& course) const {
+  const mechanics::CarrierSlice& slice = *plans_.find(course.base.number);
+  Path path;
+  path.at = [this, &course, k = slice.cable_stiffness_n_m](SwarmTime at) {
+    return command_of(*reference(course, at), k);
+  };
+  if (plain(course) && mechanics::moves(slice))
+    path.period = from_seconds(std::min(kTurn / slice.rate_rad_s, kLongestPeriod_s));
+  return path;
+}
+
+bool Agent::merge_to(LocalTime now, const protocol::Course& course) {
   const SwarmTime time = clock_.at(now);
-  const double stiffness = plans_.find(course.base.number)->cable_stiffness_n_m;
-  const Command next = command_of(wanted, stiffness);
-  if (const auto current = reference(course_, time)) {
-    merge_.begin(time, merge_.apply(time, command_of(*current, stiffness)), next);
+  if (reference(course_, time)) {
+    const bool another = !(course.base == course_.base && plain(course) && plain(course_));
+    if (another) merge_.begin(time, merge_.apply(time, path(course_)), path(course));
     return true;
   }
   if (!wants_vehicle_since_) wants_vehicle_since_ = now;
   if (vehicle_) {
-    merge_.begin(time, command_of(*vehicle_, seconds(now - vehicle_heard_)), next);
+    begin_at_the_vehicle(now, path(course));
   } else if (now - *wants_vehicle_since_ < options_.vehicle_wait) {
     return false;
   }
   return true;
 }
 
-/// After a stall the vehicle has gone on by itself: what it is told next begins where it is. False while that is
-/// unknown.
-bool Agent::back_at_the_vehicle(LocalTime now, const mechanics::Reference& wanted) {
+/// After a stall, its own or the wire's to the vehicle, the vehicle has gone on by itself: what it is told next begins
+/// where it is. False while that is unknown.
+bool Agent::back_at_the_vehicle(LocalTime now) {
   if (flown_at_ && now - *flown_at_ > options_.stall && !awake_since_) {
     awake_since_ = now;
     vehicle_.reset();
@@ -182,14 +203,15 @@ bool Agent::back_at_the_vehicle(LocalTime now, const mechanics::Reference& wante
   if (awake_since_) {
     const Duration awake = now - *awake_since_;
     if (awake < options_.backlog || (!vehicle_ && awake < options_.vehicle_wait)) return false;
-    if (vehicle_) {
-      const double stiffness = plans_.find(course_.base.number)->cable_stiffness_n_m;
-      merge_.begin(clock_.at(now), command_of(*vehicle_, seconds(now - vehicle_heard_)), command_of(wanted, stiffness));
-    }
+    if (vehicle_) begin_at_the_vehicle(now, path(course_));
     awake_since_.reset();
   }
   flown_at_ = now;
   return true;
+}
+
+void Agent::begin_at_the_vehicle(LocalTime now, const Path& path) {
+  merge_.begin(clock_.at(now), command_of(*vehicle_, seconds(now - vehicle_heard_)), path);
 }
 
 void Agent::confirm_proposal(SwarmTime now) {
@@ -233,8 +255,19 @@ void Agent::on(LocalTime now, const protocol::CarrierState& state, Outputs& /*ou
     ++dropped_.nonsense;
     return;
   }
+  // Silent while this agent was awake; after a stall of its own, what comes first is old (back_at_the_vehicle).
+  const bool was_silent =
+      vehicle_ && now - vehicle_heard_ > options_.vehicle_timeout && flown_at_ && now - *flown_at_ <= options_.stall;
   vehicle_ = state;
   vehicle_heard_ = now;
+  if (was_silent && is_lost(now)) awake_since_ = now;
+}
+
+bool Agent::is_lost(LocalTime now) const {
+  const std::optional<SwarmTime> time = swarm_time(now);
+  if (!time || !reference(course_, *time)) return false;
+  const Command asked = merge_.apply(*time, path(course_));
+  return (asked.position_w_m.value - vehicle_->position_w_m).norm() > options_.vehicle_lost_m;
 }
 
 std::optional<mechanics::Reference> Agent::reference(const protocol::Course& course, SwarmTime now) const {
@@ -245,8 +278,7 @@ std::optional<mechanics::Reference> Agent::reference(const protocol::Course& cou
 }
 
 protocol::Setpoint Agent::setpoint(SwarmTime now, const mechanics::Reference& r) {
-  const double stiffness = plans_.find(course_.base.number)->cable_stiffness_n_m;
-  const Command command = merge_.apply(now, command_of(r, stiffness));
+  const Command command = merge_.apply(now, path(course_));
   protocol::Setpoint s;
   s.carrier = options_.carrier;
   s.sequence = ++setpoints_;

@@ -34,12 +34,15 @@ struct AgentOptions {
   Duration vehicle_wait = std::chrono::milliseconds(500);
   /// A vehicle that told where it is, and does not any more, is silent. One that never tells is flown all the same.
   Duration vehicle_timeout = std::chrono::seconds(1);
+  /// When it tells again: further away than this, it was not only not heard but did not hear either.
+  double vehicle_lost_m = 0.05;
   /// Without a tick for so long, it was suspended, and its vehicle may not be where the last setpoint leads any more.
   /// No shorter: on a busy machine the vehicle's states are late as well, and a short silence is bridged without a
   /// step.
   Duration stall = std::chrono::milliseconds(500);
-  /// After that it listens so long before it believes where the vehicle is: old states have waited for it.
-  Duration backlog = std::chrono::milliseconds(50);
+  /// After that it listens so long before it believes where the vehicle is: old states have waited for it. And it says
+  /// nothing: who hears a setpoint somewhere else after a silence does not take it for a step.
+  Duration backlog = std::chrono::milliseconds(150);
   protocol::TimekeeperOptions timekeeper;
 };
 
@@ -82,9 +85,14 @@ class Agent {
 
   [[nodiscard]] bool accepts_term(std::uint64_t term, Outputs& out);
   void adopt(LocalTime now, const protocol::Course& course, Outputs& out);
-  /// Whether to fly `wanted` from now on; it begins where the carrier is.
-  [[nodiscard]] bool merge_to(LocalTime now, const protocol::Course& course, const mechanics::Reference& wanted);
-  [[nodiscard]] bool back_at_the_vehicle(LocalTime now, const mechanics::Reference& wanted);
+  /// Whether to fly `course` from now on; it begins where the carrier is.
+  [[nodiscard]] bool merge_to(LocalTime now, const protocol::Course& course);
+  [[nodiscard]] bool back_at_the_vehicle(LocalTime now);
+  void begin_at_the_vehicle(LocalTime now, const Path& path);
+  /// Whether the vehicle is too far from what it was asked for to have heard it.
+  [[nodiscard]] bool is_lost(LocalTime now) const;
+  /// Of a course whose plans are held; lives no longer than the course.
+  [[nodiscard]] Path path(const protocol::Course& course) const;
   void confirm_proposal(SwarmTime now);
   [[nodiscard]] std::optional<mechanics::Reference> reference(const protocol::Course& course, SwarmTime now) const;
   [[nodiscard]] protocol::Setpoint setpoint(SwarmTime now, const mechanics::Reference& reference);

@@ -1,7 +1,9 @@
 #include "agent/core/merge.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <limits>
 
 namespace gyre::agent {
 namespace {
@@ -38,17 +40,106 @@ Number progress(Duration elapsed, Duration duration) {
   return {seconds(elapsed) / seconds(duration), 1.0 / seconds(duration), 0.0};
 }
 
+/// What fades of a unit gap, and of a unit rate over a unit of time.
+Number value_left(const Number& x) {
+  return constant(1.0) - x * x * x * (constant(10.0) - 15.0 * x + 6.0 * (x * x));
+}
+Number slope_left(const Number& x) {
+  return x - x * x * x * (constant(6.0) - 8.0 * x + 3.0 * (x * x));
+}
+
+/// A delay that fades in 15/8 of itself doubles the pace of the motion at most. The time that a carrier loses until it
+/// has the motion's speed is made up for, too: by another half.
+Duration delay_time(double delay_s) {
+  return from_seconds(std::max(kUnpushed_s, kRatePeak * std::abs(delay_s)));
+}
+constexpr double kMadeUp = 0.512;
+/// A shorter gap is not worth the way along the path; and who lies further beside the path than this share of his gap
+/// has not just fallen behind.
+constexpr double kWorthIt_m = 0.01;
+constexpr double kBeside = 0.5;
+
+/// The same motion at another pace: x(s(t)), where ds/dt = pace, d²s/dt² = its change.
+template <class Quantity>
+Quantity paced(const Quantity& x, double pace, double change) {
+  Quantity out = x;
+  out.first = pace * x.first;
+  out.second = pace * pace * x.second + change * x.first;
+  return out;
+}
+
+double distance_m(const Command& a, const Command& b) {
+  return std::hypot((a.position_w_m.value - b.position_w_m.value).norm(), a.winch_m.value - b.winch_m.value);
+}
+
+/// What a motion asks for at most, and the delay [s] with which it comes nearest to a place.
+struct Look {
+  double speed_m_s = 0.0;
+  double acceleration_m_s2 = 0.0;
+  double winch_rate_m_s = 0.0;
+  double nearest_s = 0.0;
+};
+Look look_along(const Path& path, SwarmTime now, const Command& place) {
+  constexpr int kMoments = 64;
+  const double step_s = seconds(*path.period) / kMoments;
+  Look look;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kMoments; ++i) {
+    const double delay_s = step_s * (i % 2 == 0 ? i / 2 : -(i + 1) / 2);  // from the present outwards
+    const Command c = path.at(now - from_seconds(delay_s));
+    look.speed_m_s = std::max(look.speed_m_s, c.position_w_m.first.norm());
+    look.acceleration_m_s2 = std::max(look.acceleration_m_s2, c.position_w_m.second.norm());
+    look.winch_rate_m_s = std::max(look.winch_rate_m_s, std::abs(c.winch_m.first));
+    if (const double m = distance_m(place, c); m < least_m) {
+      least_m = m;
+      look.nearest_s = delay_s;
+    }
+  }
+  const auto squared_m2 = [&](double delay_s) {
+    const double m = distance_m(place, path.at(now - from_seconds(delay_s)));
+    return m * m;  // smooth where the place lies on the path
+  };
+  constexpr int kBits = 30;
+  look.nearest_s =
+      boost::math::tools::brent_find_minima(squared_m2, look.nearest_s - step_s, look.nearest_s + step_s, kBits).first;
+  return look;
+}
+
 }  // namespace
 
-void Merge::begin(SwarmTime now, const Command& flown, const Command& reference) {
+std::optional<Merge::Delay> Merge::behind(SwarmTime now, const Command& flown, const Path& path) const {
+  if (!path.period) return std::nullopt;
+  const double straight_m = distance_m(flown, path.at(now));
+  if (straight_m < kWorthIt_m) return std::nullopt;
+  const Look look = look_along(path, now, flown);
+  const Command there = path.at(now - from_seconds(look.nearest_s));
+  if (distance_m(flown, there) > kBeside * straight_m) return std::nullopt;
+
+  const Eigen::Vector3d& velocity = there.position_w_m.first;
+  const double share = velocity.dot(flown.position_w_m.first) / velocity.squaredNorm();
+  const double lost = std::isfinite(share) ? 1.0 - std::clamp(share, 0.0, 1.0) : 0.0;
+  const double time_s = seconds(delay_time(look.nearest_s));
+  const double pace = 1.0 + kRatePeak * std::abs(look.nearest_s) / time_s + kMadeUp * lost;
+  const double change = (kAccelerationPeak * std::abs(look.nearest_s) / time_s + kStopPeak * lost) / time_s;
+  const bool can = pace * look.speed_m_s <= limits_.speed_m_s && pace * look.winch_rate_m_s <= limits_.winch_rate_m_s &&
+                   pace * pace * look.acceleration_m_s2 + change * look.speed_m_s <= limits_.acceleration_m_s2;
+  if (!can) return std::nullopt;
+  return Delay{look.nearest_s, lost};
+}
+
+void Merge::begin(SwarmTime now, const Command& flown, const Path& path) {
   start_ = now;
+  const std::optional<Delay> delay = behind(now, flown, path);
+  delay_ = delay.value_or(Delay{});
+  delay_time_ = delay ? delay_time(delay->delay_s) : Duration::zero();
+  const Command reference = delayed(now, path);
   gap_.position_w_m = flown.position_w_m - reference.position_w_m;
   gap_.winch_m = flown.winch_m - reference.winch_m;
   const double position = gap_.position_w_m.value.norm();
   const double speed = gap_.position_w_m.first.norm();
   const double length = std::abs(gap_.winch_m.value);
   const double rate = std::abs(gap_.winch_m.first);
-  under_way_ = std::max(position, length) >= kNothing_m || std::max(speed, rate) >= kNothing_m;
+  under_way_ = delay || std::max(position, length) >= kNothing_m || std::max(speed, rate) >= kNothing_m;
   // Half of each limit: the other half is for the plan that goes on meanwhile.
   const double acceleration = 0.5 * limits_.acceleration_m_s2;
   const double shortest_s = std::max(position, length) > kUnnoticed_m ? kUnpushed_s : kShortest_s;
@@ -57,20 +148,29 @@ void Merge::begin(SwarmTime now, const Command& flown, const Command& reference)
   rate_time_ = rate_time(std::max(speed, rate), acceleration, shortest_s);
 }
 
-Command Merge::apply(SwarmTime now, const Command& reference) const {
-  if (!under_way(now)) return reference;
+Command Merge::delayed(SwarmTime now, const Path& path) const {
   const Duration elapsed = now - start_;
-  const Number one = constant(1.0);
-  const Number x = progress(elapsed, value_time_);
-  const Number value = one - x * x * x * (constant(10.0) - 15.0 * x + 6.0 * (x * x));
-  const Number y = progress(elapsed, rate_time_);
-  const Number slope = seconds(rate_time_) * (y - y * y * y * (constant(6.0) - 8.0 * y + 3.0 * (y * y)));
+  if (elapsed >= delay_time_) return path.at(now);
+  const Number x = progress(elapsed, delay_time_);
+  const Number delay = delay_.delay_s * value_left(x) + (delay_.rate * seconds(delay_time_)) * slope_left(x);
+  Command out = path.at(now - from_seconds(delay.value));
+  out.position_w_m = paced(out.position_w_m, 1.0 - delay.first, -delay.second);
+  out.winch_m = paced(out.winch_m, 1.0 - delay.first, -delay.second);
+  return out;
+}
+
+Command Merge::apply(SwarmTime now, const Path& path) const {
+  if (!under_way(now)) return path.at(now);
+  const Duration elapsed = now - start_;
+  const Number value = value_left(progress(elapsed, value_time_));
+  const Number slope = seconds(rate_time_) * slope_left(progress(elapsed, rate_time_));
   const Number z = progress(elapsed, from_seconds(kShortest_s));
-  const Number curvature = (0.5 * kShortest_s * kShortest_s) * (z * z * (one - z * (constant(3.0) - 3.0 * z + z * z)));
+  const Number curvature =
+      (0.5 * kShortest_s * kShortest_s) * (z * z * (constant(1.0) - z * (constant(3.0) - 3.0 * z + z * z)));
 
   const auto& p = gap_.position_w_m;
   const auto& l = gap_.winch_m;
-  Command out = reference;
+  Command out = delayed(now, path);
   out.position_w_m = out.position_w_m + value * Eigen::Vector3d(p.value) + slope * Eigen::Vector3d(p.first) +
                      curvature * Eigen::Vector3d(p.second);
   out.winch_m = out.winch_m + l.value * value + l.first * slope + l.second * curvature;

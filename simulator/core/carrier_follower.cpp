@@ -20,7 +20,9 @@ void CarrierFollower::command(const CarrierTarget& target, double held_s, double
   led_ = true;
   target_ = target;
   target_since_s_ = held_s;
-  if (slowed_down) {
+  const bool called_elsewhere =
+      catch_up_.under_way(now_s) && (asked(now_s).position_w_m - before.position_w_m).norm() > kCalledElsewhere_m;
+  if (slowed_down || called_elsewhere) {
     catch_up_ = CatchUp<Eigen::Vector3d>(Eigen::Vector3d::Zero());
     const CarrierMotion wanted = asked(now_s);
     catch_up_.begin({before.position_w_m - wanted.position_w_m, before.velocity_w_m_s - wanted.velocity_w_m_s}, now_s);

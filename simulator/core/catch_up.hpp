@@ -3,7 +3,8 @@
 //
 // It has come to a stand somewhere (extrapolation.hpp), and the next setpoint may ask for a place metres away. No
 // vehicle leaps there, and none should try: it closes the gap between what it did and what it is asked for by a quintic
-// that fades to nothing. An agent that knows where its vehicle is begins there, and leaves no gap to close.
+// that fades to nothing. An agent that hears where its vehicle is begins there, and leaves no gap to close: it calls
+// the vehicle back while that is already catching up, and is followed from where the vehicle is then.
 //
 //   e0, e0'   gap in value and rate at t0, when setpoints come again
 //   e(x) = e0 (1 − 10x³ + 15x⁴ − 6x⁵) + e0' T (x − 6x³ + 8x⁴ − 3x⁵)     x = (t − t0) / T, T = kCatchUp_s
@@ -13,6 +14,8 @@
 namespace gyre::simulator {
 
 inline constexpr double kCatchUp_s = 3.0;
+/// A target that changes its mind by more, and not the extrapolation of it.
+inline constexpr double kCalledElsewhere_m = 1e-3;
 
 /// Quantity: a length, or a vector of them.
 template <class Quantity>
@@ -30,6 +33,8 @@ class CatchUp {
     begin_s_ = now_s;
   }
 
+  [[nodiscard]] bool under_way(double t_s) const { return t_s < begin_s_ + kCatchUp_s; }
+
   /// What is left of the gap.
   [[nodiscard]] Gap at(double t_s) const {
     const double x = std::clamp((t_s - begin_s_) / kCatchUp_s, 0.0, 1.0);
@@ -44,7 +49,7 @@ class CatchUp {
 
  private:
   Gap gap_;
-  double begin_s_ = 0.0;
+  double begin_s_ = -kCatchUp_s;
 };
 
 }  // namespace gyre::simulator

@@ -1,6 +1,7 @@
 #include "simulator/core/winch.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "simulator/core/extrapolation.hpp"
 
@@ -21,7 +22,9 @@ void Winch::command(const WinchTarget& target, double held_s, double now_s) {
   led_ = true;
   target_ = target;
   target_since_s_ = held_s;
-  if (!slowed_down) return;
+  const bool called_elsewhere =
+      catch_up_.under_way(now_s) && std::abs(asked(now_s).length_m - before.length_m) > kCalledElsewhere_m;
+  if (!slowed_down && !called_elsewhere) return;
   catch_up_ = CatchUp<double>(0.0);
   const WinchMotion wanted = asked(now_s);
   catch_up_.begin({before.length_m - wanted.length_m, before.rate_m_s - wanted.rate_m_s}, now_s);

@@ -6,6 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gyre::agent {
 namespace {
@@ -28,11 +29,37 @@ Command command(double size_m, double rate) {
   return c;
 }
 
+/// One command for ever.
+Path held(const Command& command) {
+  return {[command](SwarmTime) { return command; }, std::nullopt};
+}
+
+constexpr double kRate_rad_s = 0.2;
+/// A circle, with a cable that becomes longer and shorter on it.
+Command circle(SwarmTime at, double radius_m) {
+  const double theta = kRate_rad_s * seconds(at - kNow);
+  const double c = std::cos(theta), s = std::sin(theta), w = kRate_rad_s;
+  return {{radius_m * Eigen::Vector3d(c, s, 0.0), radius_m * w * Eigen::Vector3d(-s, c, 0.0),
+           -radius_m * w * w * Eigen::Vector3d(c, s, 0.0)},
+          {2.0 + 0.1 * s, 0.1 * w * c, -0.1 * w * w * s}};
+}
+Path round_and_round(double radius_m) {
+  return {[radius_m](SwarmTime at) { return circle(at, radius_m); }, from_seconds(2.0 * M_PI / kRate_rad_s)};
+}
+/// It stands where it should have been `behind` ago.
+Command standing(double radius_m, Duration behind) {
+  Command flown = circle(kNow - behind, radius_m);
+  flown.position_w_m.first.setZero();
+  flown.position_w_m.second.setZero();
+  flown.winch_m.first = flown.winch_m.second = 0.0;
+  return flown;
+}
+
 RC_GTEST_PROP(Merge, BeginsWhereTheCarrierIsInValueRateAndAcceleration, ()) {
   const Command flown = command(10.0, 1.0), reference = command(10.0, 1.0);
   Merge merge({real(0.5, 5.0), real(0.5, 5.0), real(0.1, 2.0)});
-  merge.begin(kNow, flown, reference);
-  const Command c = merge.apply(kNow, reference);
+  merge.begin(kNow, flown, held(reference));
+  const Command c = merge.apply(kNow, held(reference));
   RC_ASSERT((c.position_w_m.value - flown.position_w_m.value).norm() < 1e-9);
   RC_ASSERT((c.position_w_m.first - flown.position_w_m.first).norm() < 1e-9);
   RC_ASSERT((c.position_w_m.second - flown.position_w_m.second).norm() < 1e-9);
@@ -48,14 +75,14 @@ RC_GTEST_PROP(Merge, LandsExactlyAndLeavesHalfOfTheVehicleToThePlan, ()) {
   reference.position_w_m.second.setZero();
   const MergeLimits limits{real(0.5, 5.0), real(0.5, 5.0), real(0.1, 2.0)};
   Merge merge(limits);
-  merge.begin(kNow, flown, reference);
+  merge.begin(kNow, flown, held(reference));
   const double began_m_s = flown.position_w_m.first.norm(), began_m_s2 = flown.position_w_m.second.norm();
   constexpr Duration kStep = std::chrono::milliseconds(10);
-  Command before = merge.apply(kNow, reference);
+  Command before = merge.apply(kNow, held(reference));
   SwarmTime t = kNow;
   while (merge.under_way(t)) {
     t += kStep;
-    const Command c = merge.apply(t, reference);
+    const Command c = merge.apply(t, held(reference));
     RC_ASSERT(c.position_w_m.first.norm() <= 0.5 * limits.speed_m_s + began_m_s + 0.07 * began_m_s2 + 1e-9);
     RC_ASSERT(c.position_w_m.second.norm() <= 0.51 * limits.acceleration_m_s2 + began_m_s2 + 1e-9);
     RC_ASSERT(std::abs(c.winch_m.first) <= 0.5 * limits.winch_rate_m_s + std::abs(flown.winch_m.first) +
@@ -65,9 +92,67 @@ RC_GTEST_PROP(Merge, LandsExactlyAndLeavesHalfOfTheVehicleToThePlan, ()) {
     RC_ASSERT((slope - 0.5 * (c.position_w_m.first + before.position_w_m.first)).norm() < 1e-2);
     before = c;
   }
-  RC_ASSERT(merge.apply(t, reference).position_w_m.value == reference.position_w_m.value);
-  RC_ASSERT(merge.apply(t, reference).winch_m.value == reference.winch_m.value);
+  RC_ASSERT(merge.apply(t, held(reference)).position_w_m.value == reference.position_w_m.value);
+  RC_ASSERT(merge.apply(t, held(reference)).winch_m.value == reference.winch_m.value);
   RC_ASSERT((before.position_w_m.value - reference.position_w_m.value).norm() < 1e-9);
+}
+
+TEST(Merge, OfWhoFellBehindOnAMotionStaysOnItsPath) {
+  using std::chrono::milliseconds;
+  for (const auto behind : {milliseconds(500), milliseconds(3000), milliseconds(10000), milliseconds(-4000)}) {
+    const Path path = round_and_round(1.0);
+    const Command flown = standing(1.0, behind);
+    Merge merge({2.0, 2.0, 0.5});
+    merge.begin(kNow, flown, path);
+    Command before = merge.apply(kNow, path);
+    EXPECT_LT((before.position_w_m.value - flown.position_w_m.value).norm(), 1e-6);
+    EXPECT_LT(before.position_w_m.first.norm(), 1e-6);
+    EXPECT_LT(before.position_w_m.second.norm(), 1e-6);
+    SwarmTime t = kNow;
+    while (merge.under_way(t)) {
+      t += milliseconds(10);
+      ASSERT_LT(t, kNow + std::chrono::minutes(1));
+      const Command c = merge.apply(t, path);
+      EXPECT_NEAR(c.position_w_m.value.norm(), 1.0, 1e-6) << "beside the circle";
+      EXPECT_NEAR(c.winch_m.value, 2.0 + 0.1 * c.position_w_m.value.y(), 1e-6) << "a cable for another place";
+      const Eigen::Vector3d slope = (c.position_w_m.value - before.position_w_m.value) / 0.01;
+      EXPECT_LT((slope - 0.5 * (c.position_w_m.first + before.position_w_m.first)).norm(), 1e-4);
+      EXPECT_LT((c.position_w_m.first - before.position_w_m.first).norm(), 0.01 * 2.0);
+      before = c;
+    }
+    EXPECT_EQ(merge.apply(t, path).position_w_m.value, circle(t, 1.0).position_w_m.value);
+  }
+}
+
+TEST(Merge, OfCarriersThatFellBehindTogetherKeepsThemInStep) {
+  // Two vehicles of the same swarm, of different strength, on orbits of different size.
+  Merge small({5.0, 5.0, 0.5}), large({2.0, 2.0, 1.0});
+  small.begin(kNow, standing(0.3, std::chrono::seconds(3)), round_and_round(0.3));
+  large.begin(kNow, standing(1.2, std::chrono::seconds(3)), round_and_round(1.2));
+  for (SwarmTime t = kNow; large.under_way(t); t += std::chrono::milliseconds(50)) {
+    const Eigen::Vector3d a = small.apply(t, round_and_round(0.3)).position_w_m.value / 0.3;
+    const Eigen::Vector3d b = large.apply(t, round_and_round(1.2)).position_w_m.value / 1.2;
+    EXPECT_LT((a - b).norm(), 1e-5);
+  }
+}
+
+TEST(Merge, OfAVehicleThatCannotHurryOrIsBesideItsPathGoesStraight) {
+  const Command behind = standing(1.0, std::chrono::seconds(3));
+  Command beside = circle(kNow, 1.0);
+  beside.position_w_m.value.z() += 0.4;
+  beside.position_w_m.first.setZero();
+  const auto least_radius_m = [](const MergeLimits& limits, const Command& flown) {
+    const Path path = round_and_round(1.0);
+    Merge merge(limits);
+    merge.begin(kNow, flown, path);
+    double least = 1.0;
+    for (SwarmTime t = kNow; merge.under_way(t); t += std::chrono::milliseconds(50)) {
+      least = std::min(least, merge.apply(t, path).position_w_m.value.norm());
+    }
+    return least;
+  };
+  EXPECT_LT(least_radius_m({0.25, 2.0, 0.5}, behind), 0.99) << "a chord, and no arc";
+  EXPECT_GT(least_radius_m({2.0, 2.0, 0.5}, beside), 0.97) << "the other side of the circle is no nearer";
 }
 
 TEST(Merge, DoesNothingWhereThereIsNoGap) {
@@ -75,7 +160,7 @@ TEST(Merge, DoesNothingWhereThereIsNoGap) {
   c.position_w_m.value = {1.0, 2.0, 3.0};
   c.winch_m.value = 1.0;
   Merge merge({});
-  merge.begin(kNow, c, c);
+  merge.begin(kNow, c, held(c));
   EXPECT_FALSE(merge.under_way(kNow));
 }
 

@@ -46,6 +46,43 @@ TEST_F(AgentTest, AfterALongStallAMuteVehicleIsNotWaitedForForEver) {
   EXPECT_GT(setpoint_->sequence, before);
 }
 
+TEST_F(AgentTest, AVehicleThatHeardNothingIsCalledFromWhereItStopped) {
+  rest();
+  transition(kMotion, milliseconds(200), seconds(2));
+  fly(seconds(3));
+  vehicle_->position_w_m = setpoint_->position_w_m;
+  vehicle_->winch_length_m = setpoint_->winch_length_m;
+  fly(milliseconds(20));
+  const protocol::CarrierState stopped = *vehicle_;
+  vehicle_.reset();  // the wire to the vehicle is out, both ways
+  fly(seconds(3));
+  ASSERT_GT((setpoint_->position_w_m - stopped.position_w_m).norm(), 0.1);
+  vehicle_ = stopped;
+  fly(milliseconds(200));
+  EXPECT_LT((setpoint_->position_w_m - stopped.position_w_m).norm(), 0.01);
+  watch_for_steps();
+  vehicle_.reset();
+  fly(seconds(20));
+  const auto r = reference(kMotion, course_->transitions[0].to.epoch);
+  EXPECT_LT((setpoint_->position_w_m - r.position_w_m.value).norm(), 1e-9);
+}
+
+TEST_F(AgentTest, AVehicleThatWasOnlyNotHeardFliesOn) {
+  rest();
+  transition(kMotion, milliseconds(200), seconds(2));
+  vehicle_.reset();
+  fly(seconds(3));
+  watch_for_steps();
+  vehicle_ = protocol::CarrierState{};
+  vehicle_->carrier = 1;
+  vehicle_->position_w_m = setpoint_->position_w_m + Eigen::Vector3d(0.02, 0.0, 0.0);  // it tracks as well as it can
+  fly(milliseconds(20));
+  vehicle_.reset();
+  const std::uint64_t before = setpoint_->sequence;
+  fly(milliseconds(200));
+  EXPECT_EQ(setpoint_->sequence, before + 20) << "not one setpoint is left out";
+}
+
 TEST_F(AgentTest, RestartedInFlightItBeginsWhereItsCarrierIs) {
   rest();
   vehicle_->position_w_m += Eigen::Vector3d(0.3, -0.2, 0.1);

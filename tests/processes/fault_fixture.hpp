@@ -119,6 +119,17 @@ class FaultTest : public ProgramsTest {
     EXPECT_TRUE(took) << flight_->said("coordinator");
   }
 
+  /// Starts the coordinator again and lands; seconds until all flew under it, if they did.
+  std::optional<double> take_over_and_land(std::uint64_t former_term) {
+    flight_->start_process("coordinator");
+    const auto took = FaultFlight::seconds_until(
+        kRecovery_s, [&] { return all_follow_a_term_above(former_term) && flight_->all_flying(); });
+    wait(2.0);
+    land();
+    EXPECT_TRUE(took) << flight_->said_by_all();
+    return took;
+  }
+
   /// This program hears everything, whatever is lost: the instrument is not part of the experiment.
   static std::vector<std::uint16_t> instrument() { return udp_ports(::getpid()); }
   /// The way from an agent to its vehicle is on board: the radio may be out, it is not.

@@ -117,6 +117,21 @@ TEST(CarrierFollower, CatchesUpWithoutALeapAfterItHadSlowedDown) {
   }
 }
 
+TEST(CarrierFollower, IsCalledBackWithoutALeapWhileItCatchesUp) {
+  CarrierFollower follower(circle(0.0).position_w_m, std::nullopt);
+  follower.command(circle(0.0), 0.0, 0.0);
+  CarrierTarget here;
+  here.position_w_m = follower.at(5.0).position_w_m;
+  CarrierMotion before = follower.at(5.0);
+  for (double t_s = 5.0; t_s < 10.0; t_s += 0.001) {
+    follower.command(t_s < 5.1 ? circle(t_s) : here, t_s, t_s);
+    const CarrierMotion after = follower.at(t_s);
+    ASSERT_LT((after.position_w_m - before.position_w_m).norm(), 1e-3) << t_s;
+    before = after;
+  }
+  EXPECT_LT((before.position_w_m - here.position_w_m).norm(), 1e-9);
+}
+
 TEST(CarrierFollower, LeapsWhereSetpointsDoAndNobodyWasSilent) {
   double leap = 0.0;
   led_again(0.9, [&leap](const CarrierMotion& before, const CarrierMotion& after, double /*dt_s*/) {

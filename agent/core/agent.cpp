@@ -324,8 +324,15 @@ std::optional<std::string> Agent::complaint(LocalTime now) const {
   return std::nullopt;
 }
 
+bool Agent::is_awaited(LocalTime now) const {
+  const std::optional<SwarmTime> time = swarm_time(now);
+  return time && std::any_of(course_.transitions.begin(), course_.transitions.end(), [&](const auto& transition) {
+           return *time < transition.start + options_.awaited_after_start;
+         });
+}
+
 protocol::AgentStatus Agent::status(LocalTime now) {
-  next_status_ = now + options_.status_period;
+  next_status_ = now + (is_awaited(now) ? options_.status_period_awaited : options_.status_period);
   protocol::AgentStatus s;
   s.carrier = options_.carrier;
   s.incarnation = options_.incarnation;

@@ -181,6 +181,8 @@ void Coordinator::on(LocalTime now, const protocol::Command& command, Outputs& o
     case CommandKind::kRetune:
       return refuse("a retune needs its mission read first");
   }
+  // Whoever wants rest does not want the motion that is still waited for.
+  if (command.kind == CommandKind::kRelease) engage_ = false;
   const protocol::PlanNumber to = command.kind == CommandKind::kEngage ? motion_ : rest_;
   if (destination() == to) return refuse(text("already there: the %s plan", plans_.name(to)));
   if (const auto why = obstacle(now, to)) return refuse(*why);

@@ -316,6 +316,9 @@ void Coordinator::check_start(LocalTime now, Outputs& out) {
   if (missing.empty() || shutting_down_) return;
   tell(out, Notice::Level::kWarning,
        list(missing) + (missing.size() == 1 ? " does" : " do") + " not follow the transition that began: turning back");
+  // It was wanted, and still is: nobody has to ask for it again.
+  engage_ = engage_ || found->to.number == motion_;
+  retry_at_ = now + options_.turning_back;
   if (agreement_) {  // it was to lie on what is turned back now
     give_up(now, "the transition before it is turned back", out);
     found = std::find_if(course_.transitions.begin(), course_.transitions.end(), is_starting);

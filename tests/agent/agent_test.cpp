@@ -60,6 +60,20 @@ TEST_F(AgentTest, ConfirmsOnlyWhatItHoldsAndInTime) {
   EXPECT_EQ(status_->state, AgentState::kReady) << "a proposal is not flown";
 }
 
+TEST_F(AgentTest, SpeaksFourTimesAsOftenWhileItsWordIsWaitedFor) {
+  rest();
+  const auto words_in_a_second = [this] {
+    const std::uint64_t before = status_->sequence;
+    fly(seconds(1));
+    return status_->sequence - before;
+  };
+  EXPECT_NEAR(static_cast<double>(words_in_a_second()), 10.0, 1.0);
+  transition(kMotion, milliseconds(600), seconds(4));
+  EXPECT_GT(words_in_a_second(), 30U) << "until it is seen that all have begun";
+  fly(seconds(1));
+  EXPECT_NEAR(static_cast<double>(words_in_a_second()), 10.0, 1.0);
+}
+
 TEST_F(AgentTest, FollowsATransitionWithoutAStepAndSettles) {
   rest();
   watch_for_steps();

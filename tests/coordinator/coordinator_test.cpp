@@ -170,16 +170,37 @@ TEST(Coordinator, WhoDoesNotFollowAStartIsWaitedForByTurningBack) {
   watch(swarm);
   swarm.fly(seconds(2));
   // Everybody confirms; carrier 2 never hears the go.
-  auto inner = swarm.visit;
+  const auto inner = swarm.visit;
   swarm.visit = [&, inner] {
     inner();
     if (swarm.statuses[2].confirmed > 0) swarm.deaf = {2};
   };
-  EXPECT_TRUE(says(swarm.command(CommandKind::kEngage), "done"));
+  EXPECT_TRUE(says(swarm.command(CommandKind::kEngage, seconds(3)), "done"));
   EXPECT_TRUE(says(swarm.news, "carrier 2 does not follow the transition that began: turning back")) << swarm.news;
-  swarm.fly(seconds(20));
-  EXPECT_EQ(swarm.coordinator().course().transitions.size(), 0U);
-  EXPECT_TRUE(says(swarm.news, "held by the rest plan"));
+  swarm.fly(milliseconds(500));
+  EXPECT_EQ(swarm.coordinator().course().base.number, swarm.last_offers.at(2).slices.front().number);
+  // It was wanted, and still is.
+  swarm.visit = inner;
+  swarm.deaf = {};
+  swarm.fly(seconds(80));
+  const auto& course = swarm.coordinator().course();
+  EXPECT_TRUE(course.transitions.empty());
+  EXPECT_TRUE(says(swarm.news, "held by the motion plan"));
+}
+
+TEST(Coordinator, ATurnedBackStartIsNotTriedAgainWhenSomebodyReleased) {
+  SwarmOfAgents swarm(job());
+  swarm.fly(seconds(2));
+  swarm.visit = [&] {
+    if (swarm.statuses[2].confirmed > 0) swarm.deaf = {2};
+  };
+  EXPECT_TRUE(says(swarm.command(CommandKind::kEngage, seconds(3)), "done"));
+  ASSERT_TRUE(says(swarm.news, "turning back"));
+  static_cast<void>(swarm.command(CommandKind::kRelease));
+  swarm.visit = nullptr;
+  swarm.deaf = {};
+  swarm.fly(seconds(60));
+  EXPECT_FALSE(says(swarm.news, "held by the motion plan"));
 }
 
 TEST(Coordinator, FreezesOnCommand) {

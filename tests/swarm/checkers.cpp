@@ -244,6 +244,7 @@ void Checkers::instant(TrueTime now) {
     const double gap_m = (here.position_w_m - attachments_w_m_[i] - here.cable_length_m * here.direction_w).norm();
     merging_now_ = merging_now_ || gap_m > kMerging_m;
     extremes_.merging += gap_m > kMerging_m ? 1 : 0;
+    extremes_.merging_m = std::max(extremes_.merging_m, gap_m);
   }
   constexpr double kHung_s = 0.05;  // somebody sends no setpoints: its force between them is anybody's guess
   if (m.gap_s > kHung_s) return;

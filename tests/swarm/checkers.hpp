@@ -37,6 +37,7 @@ struct Extremes {
   std::uint64_t setpoints = 0;
   std::uint64_t instants = 0;   ///< at which the equilibrium was judged
   std::uint64_t merging = 0;    ///< agent-instants on the way back to the plan
+  double merging_m = 0.0;       ///< furthest of them from where the plan has the carrier
   double residual_share = 0.0;  ///< of the weight
   double residual_of_bound = 0.0;
   double half_applied = 0.0;          ///< ever

@@ -72,40 +72,6 @@ TEST(Coordinator, OpensAtOnceWhenAllAgentsAreFresh) {
   EXPECT_TRUE(says(swarm.news, "held by the rest plan"));
 }
 
-TEST(Coordinator, DepartsOnlyWhenNobodyComplains) {
-  CoordinatorOptions options;
-  options.engage_when_ready = true;
-  SwarmOfAgents swarm(job(), options);
-  const auto complain = [&](const std::string& process, const std::string& text) {
-    swarm.tell(protocol::Health{process, text, {}, 0, 0, 0});
-  };
-  complain("ground", "has nothing to look at");
-  complain("agent 77", "is none of this swarm");
-  complain("simulator", "no setpoints for carriers 2");
-  swarm.fly(milliseconds(900));
-  EXPECT_TRUE(swarm.coordinator().course().transitions.empty());
-  EXPECT_FALSE(says(swarm.news, "does not begin")) << "it may be only late";
-  complain("simulator", "no setpoints for carriers 2");
-  swarm.fly(milliseconds(2500));
-  EXPECT_TRUE(says(swarm.news, "the motion does not begin: simulator: no setpoints for carriers 2"));
-  EXPECT_TRUE(says(swarm.command(CommandKind::kEngage, milliseconds(20)), "refused: simulator: no setpoints"));
-  EXPECT_TRUE(swarm.coordinator().course().transitions.empty());
-  complain("simulator", "");
-  swarm.fly(seconds(2));
-  EXPECT_FALSE(swarm.coordinator().course().transitions.empty());
-  complain("simulator", "no setpoints for carriers 2");
-  EXPECT_TRUE(says(swarm.command(CommandKind::kRelease), "done")) << "in motion nobody is asked";
-}
-
-TEST(Coordinator, DoesNotWaitForWhoComplainedAndFellSilent) {
-  CoordinatorOptions options;
-  options.engage_when_ready = true;
-  SwarmOfAgents swarm(job(), options);
-  swarm.tell(protocol::Health{"simulator", "no setpoints for carriers 2", {}, 0, 0, 0});
-  swarm.fly(seconds(6));
-  EXPECT_FALSE(swarm.coordinator().course().transitions.empty());
-}
-
 TEST(Coordinator, BeginsAFlightOnlyWithAll) {
   SwarmOfAgents swarm(job());
   swarm.mute = {3};

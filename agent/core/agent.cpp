@@ -212,6 +212,7 @@ bool Agent::back_at_the_vehicle(LocalTime now) {
 
 void Agent::begin_at_the_vehicle(LocalTime now, const Path& path) {
   merge_.begin(clock_.at(now), command_of(*vehicle_, seconds(now - vehicle_heard_)), path);
+  flown_at_ = now;  // a stall before the first setpoint is one, too
 }
 
 void Agent::confirm_proposal(SwarmTime now) {

@@ -119,7 +119,7 @@ class Agent {
   std::optional<protocol::CarrierState> vehicle_;  ///< where the carrier really is
   LocalTime vehicle_heard_{};
   std::optional<LocalTime> wants_vehicle_since_;
-  std::optional<LocalTime> flown_at_;  ///< the last setpoint
+  std::optional<LocalTime> flown_at_;  ///< the last setpoint, or where the vehicle was when it began
   std::optional<LocalTime> awake_since_;
 
   std::uint64_t setpoints_ = 0;

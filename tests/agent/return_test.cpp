@@ -105,6 +105,34 @@ TEST_F(AgentTest, RestartedInFlightItBeginsWhereItsCarrierIs) {
   EXPECT_LT((setpoint_->position_w_m - r.position_w_m.value).norm(), 1e-9);
 }
 
+TEST_F(AgentTest, RestartedAndStalledBeforeItsFirstSetpointItBeginsWhereItsCarrierIsByThen) {
+  rest();
+  restart(3);
+  setpoint_.reset();
+  course_->transitions.clear();
+  course_->base = {kMotion, swarm() - seconds(7)};
+  offer({kRest, kMotion, kOther});
+  // Until it has swarm time and a course, and not one tick longer.
+  while (status_->incarnation != 3 || status_->course.base.number.none()) {
+    now_ += milliseconds(1);
+    tell(*vehicle_);
+    beacon();
+    const Outputs out = setpoint_ ? Outputs{} : agent_->step(now_, Tick{});
+    ASSERT_FALSE(out.setpoint) << "it should not have come so far";
+    if (out.status) status_ = out.status;
+    if (out.time_request) tell(TimeReplyArrived{reply_to(*out.time_request), now_});
+  }
+  now_ += milliseconds(1400);
+  vehicle_->position_w_m += Eigen::Vector3d(0.1, 0.0, 0.0);
+  std::optional<protocol::Setpoint> first;
+  visit_ = [&](const protocol::Setpoint& s) {
+    if (!first) first = s;
+  };
+  fly(milliseconds(500));
+  ASSERT_TRUE(first);
+  EXPECT_LT((first->position_w_m - vehicle_->position_w_m).norm(), 1e-3);
+}
+
 TEST_F(AgentTest, RestartedItWaitsForItsVehicleButNotForEver) {
   offer({kRest, kMotion});
   course_ = Course{1, {kMotion, swarm()}, {}};

@@ -279,7 +279,9 @@ std::optional<mechanics::Reference> Agent::reference(const protocol::Course& cou
 }
 
 protocol::Setpoint Agent::setpoint(SwarmTime now, const mechanics::Reference& r) {
-  const Command command = merge_.apply(now, path(course_));
+  // Nearly always there is nothing to merge, and `r` is all of it.
+  const Command command = merge_.under_way(now) ? merge_.apply(now, path(course_))
+                                                : command_of(r, plans_.find(course_.base.number)->cable_stiffness_n_m);
   protocol::Setpoint s;
   s.carrier = options_.carrier;
   s.sequence = ++setpoints_;

@@ -19,9 +19,9 @@ constexpr double kMerging_m = 1e-6;
 /// Peaks of the smooth step's derivatives: 15/8 per duration, 10/sqrt(3) per duration squared.
 constexpr double kPacePeak = 1.875;
 constexpr double kBendPeak = 5.7735;
-/// Of the clock that is read, by rounding and by reading it at two moments of one step.
 /// A vehicle is then on its own (agent options: stall), and its agent no longer knows where it is.
 const double kSilenceSeconds = seconds(agent::AgentOptions{}.stall) + 0.05;
+/// Of the clock that is read, by rounding and by reading it at two moments of one step.
 constexpr double kSwarmTimeJump_s = 2e-6;
 
 double internal_n(const mechanics::CarrierSlice& slice) {

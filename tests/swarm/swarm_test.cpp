@@ -83,14 +83,17 @@ TEST(Faults, HappenEveryOneOfThem) {
 }
 
 TEST(Calm, NothingIsEverHalfAppliedAndNobodyMergesMeasurably) {
+  int flights_with_merges = 0;
   for (std::size_t load = 0; load < loads().size(); ++load) {
     const FlightReport report = fly(calm_scenario(load + 1, load));
     EXPECT_TRUE(report.good()) << describe(report);
     // A go that is heard some milliseconds late is merged to: of 480 such flights in six, by up to 9 um.
+    flights_with_merges += report.extremes.merging > 0 ? 1 : 0;
     EXPECT_LT(report.extremes.merging_m, 2e-5) << "load " << load;
     EXPECT_LT(report.extremes.half_applied, 1e-5) << "load " << load;
     EXPECT_LT(report.extremes.residual_share, 2e-3) << "load " << load;
   }
+  EXPECT_LE(flights_with_merges, 1);
 }
 
 TEST(Calm, TheSameSeedIsTheSameFlight) {

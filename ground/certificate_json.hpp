@@ -1,5 +1,5 @@
 #pragma once
-// A certificate for programs: the keys are a contract (DESIGN section 5), units are in them.
+// A certificate for programs: the keys are a contract (tests/ground/command_test.cpp), units are in them.
 
 #include <nlohmann/json.hpp>
 #include <string>

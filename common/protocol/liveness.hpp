@@ -2,7 +2,8 @@
 // Judges silence. Somebody is silent when nothing was heard of them for longer than a timeout.
 //
 // Told the time, never asking for it: the same judge serves a process on its steady clock and a test on virtual time.
-// DDS has liveliness of its own; it cannot be relied on (idl/README.md), and it could not be tested like this.
+// DDS has liveliness of its own; it cannot be relied on (docs/interop.md "Delivery"), and it could not be tested
+// like this.
 
 #include <optional>
 

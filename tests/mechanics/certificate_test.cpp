@@ -1,4 +1,5 @@
-// The certificate against dense sampling, both ways: never inside the samples, and tight. And facts 1 and 2.
+// The certificate against dense sampling, both ways: never inside the samples, and tight. And facts 1 and 2 of
+// docs/design.md.
 
 #include "common/mechanics/certificate.hpp"
 
@@ -110,7 +111,7 @@ RC_GTEST_PROP(Certificate, the_pair_it_names_attains_the_separation, ()) {
   RC_ASSERT(std::abs(least - s.min_m) < 1e-5);
 }
 
-// ------------------------------------------------------------------------------------------------- fact 2, section 8
+// ------------------------------------------------------------------------------------------------------------ fact 2
 
 RC_GTEST_PROP(EdgeHeadings, carriers_of_any_planar_polygon_fly_circles_at_constant_speed_and_length, ()) {
   RandomPlan wish;
@@ -149,7 +150,7 @@ struct Phases {
   double least_speed, winch_rate, tension_min, tension_max, length_min, length_max;
 };
 
-/// DESIGN section 8: the paper's load with other phases, to the digits printed there.
+/// The paper's load with other phases, computed independently of this code.
 void expect_row(const Plan& plan, const Phases& row) {
   SCOPED_TRACE(row.name);
   Range tension, length;

@@ -1,5 +1,5 @@
-// What holds the load when things are not as planned: clocks that disagree (fact 4), a carrier that is stuck (fact 5),
-// a load that is pushed away (fact 6).
+// What holds the load when things are not as planned: clocks that disagree (docs/design.md, fact 4), a carrier that is
+// stuck (fact 5), a load that is pushed away (fact 6).
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -105,7 +105,7 @@ TEST(Freeze, one_carrier_alone_leaves_more_than_the_papers_whole_weight_unbalanc
     });
     return share;
   };
-  EXPECT_NEAR(worst(0), 1.14, 0.005);  // DESIGN fact 5
+  EXPECT_NEAR(worst(0), 1.14, 0.005);  // fact 5
   for (std::size_t stuck = 0; stuck < all.size(); ++stuck) EXPECT_GT(worst(stuck), 1.0);
 }
 

@@ -22,7 +22,7 @@ inline constexpr double kPi = 3.14159265358979323846;
 /// n level carriers on a horizontal regular polygon above the centre of mass, with edge-heading phases.
 [[nodiscard]] Plan polygon_plan(std::size_t n);
 
-/// phase_j := heading of edge j as travelled, W (DESIGN fact 2).
+/// phase_j := heading of edge j as travelled, W (docs/design.md, fact 2).
 void take_edge_headings(Plan& plan);
 
 /// What a random plan may be; RapidCheck draws the rest, so call it inside a property.

@@ -1,5 +1,5 @@
-// Transitions: mixtures hold the load (fact 3), their derivatives are exact from end to end, and the enclosures of
-// their figures are proofs and tight.
+// Transitions: mixtures hold the load (docs/design.md, fact 3), their derivatives are exact from end to end, and the
+// enclosures of their figures are proofs and tight.
 
 #include "common/mechanics/transition.hpp"
 

@@ -234,7 +234,7 @@ TEST(LoadDynamics, JacobianIsTheDerivativeOfTheDerivative) {
   EXPECT_LT(slack, 140);
 }
 
-// DESIGN section 8: with the paper's load and cables explicit integrators crawl.
+// Why the integrator is implicit: explicit ones crawl.
 TEST(LoadDynamics, ThePapersLoadIsStiff) {
   const mechanics::Plan plan = rigs::paper();
   const LoadDynamics dynamics(rigid_load(plan));

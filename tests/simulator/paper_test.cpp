@@ -61,7 +61,7 @@ TEST(Paper, HangsAtRestForMinutes) {
   EXPECT_LT(rest.rotation_deg, 1e-7);
 }
 
-// DESIGN fact 6: a small wrench w displaces the load by K⁻¹ w. The force rises slowly and the swing it leaves is
+// docs/design.md, fact 6: a small wrench w displaces the load by K⁻¹ w. The force rises slowly and the swing it leaves is
 // averaged out.
 TEST(Paper, WindDisplacesTheLoadByItsStiffness) {
   const mechanics::Plan plan = mechanics::rest_plan(rigs::paper());

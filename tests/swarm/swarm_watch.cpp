@@ -13,7 +13,7 @@ namespace {
 
 /// A vehicle's state matters only to an agent that does not know it from its own setpoints.
 constexpr Duration kLeftAlone = std::chrono::milliseconds(40);
-/// DESIGN section 3: an agent that falls silent is named within this time.
+/// docs/design.md "Loss table": an agent that falls silent is named within this time.
 constexpr Duration kNamedWithin = std::chrono::milliseconds(500);
 constexpr Duration kLongestHeldBack = std::chrono::seconds(3);
 

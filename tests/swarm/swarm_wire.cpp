@@ -10,7 +10,7 @@ namespace gyre::swarm {
 
 namespace {
 
-/// A reader asks again for what it knows to have missed (INTEROP, heartbeat period 20 to 50 ms).
+/// A reader asks again for what it knows to have missed (docs/interop.md "Delivery").
 constexpr Duration kHeartbeat = std::chrono::milliseconds(35);
 constexpr Duration kSupervisor = std::chrono::seconds(1);
 /// More never waits of one topic at a process that does not read: the middleware keeps the newest few.

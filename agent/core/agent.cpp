@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/angle.hpp"
 #include "common/base/text.hpp"
 #include "common/protocol/course.hpp"
 #include "common/protocol/sanity.hpp"
@@ -14,7 +15,6 @@ using protocol::Stage;
 
 namespace {
 
-constexpr double kTurn = 2.0 * M_PI;
 /// A motion slower than that is as good as none.
 constexpr double kLongestPeriod_s = 3600.0;
 
@@ -173,7 +173,7 @@ Path Agent::path(const protocol::Course& course) const {
     return command_of(*reference(course, at), k);
   };
   if (plain(course) && mechanics::moves(slice))
-    path.period = from_seconds(std::min(kTurn / slice.rate_rad_s, kLongestPeriod_s));
+    path.period = from_seconds(std::min(kTwoPi / slice.rate_rad_s, kLongestPeriod_s));
   return path;
 }
 

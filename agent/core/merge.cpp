@@ -5,10 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "common/mechanics/quintic.hpp"
+
 namespace gyre::agent {
 namespace {
 
-using mechanics::constant;
+using mechanics::curvature_left;
+using mechanics::slope_left;
+using mechanics::value_left;
 using Number = mechanics::Taylor<double>;
 
 /// Below this nobody could measure a step: rounding of the same reference computed twice.
@@ -18,11 +22,10 @@ constexpr double kShortest_s = 1.0;
 /// goes on swinging: nothing but air damps it. Gaps below a millimetre push nobody.
 constexpr double kUnpushed_s = 3.0;
 constexpr double kUnnoticed_m = 1e-3;
-/// Peaks of the fading quintics: of a unit gap, 15/8 of gap / T and 10/√3 of gap / T²; of a unit rate, 3.95 of rate /
-/// T.
-constexpr double kRatePeak = 1.875;
-constexpr double kAccelerationPeak = 5.7735;
-constexpr double kStopPeak = 3.95;
+/// Peaks of a gap that fades: in rate, of gap / T, in acceleration, of gap / T²; and of a rate that fades, of rate / T.
+constexpr double kRatePeak = mechanics::kStepSlopePeak;
+constexpr double kAccelerationPeak = mechanics::kStepCurvaturePeak;
+constexpr double kStopPeak = mechanics::kSlopeLeftCurvaturePeak;
 
 /// Gap and rate share what the merge may use of the acceleration.
 Duration gap_time(double gap, double rate_limit, double acceleration_limit, double shortest_s) {
@@ -36,16 +39,7 @@ Duration rate_time(double rate, double acceleration_limit, double shortest_s) {
 
 /// Where a fade that takes `duration` is.
 Number progress(Duration elapsed, Duration duration) {
-  if (elapsed >= duration) return constant(1.0);
-  return {seconds(elapsed) / seconds(duration), 1.0 / seconds(duration), 0.0};
-}
-
-/// What fades of a unit gap, and of a unit rate over a unit of time.
-Number value_left(const Number& x) {
-  return constant(1.0) - x * x * x * (constant(10.0) - 15.0 * x + 6.0 * (x * x));
-}
-Number slope_left(const Number& x) {
-  return x - x * x * x * (constant(6.0) - 8.0 * x + 3.0 * (x * x));
+  return mechanics::progress(seconds(elapsed), seconds(duration));
 }
 
 /// A delay that fades in 15/8 of itself doubles the pace of the motion at most. The time that a carrier loses until it
@@ -53,7 +47,7 @@ Number slope_left(const Number& x) {
 Duration delay_time(double delay_s) {
   return from_seconds(std::max(kUnpushed_s, kRatePeak * std::abs(delay_s)));
 }
-constexpr double kMadeUp = 0.512;
+constexpr double kMadeUp = mechanics::kSlopeLeftReturnPeak;
 /// A shorter gap is not worth the way along the path; and who lies further beside the path than this share of his gap
 /// has not just fallen behind.
 constexpr double kWorthIt_m = 0.01;
@@ -164,9 +158,7 @@ Command Merge::apply(SwarmTime now, const Path& path) const {
   const Duration elapsed = now - start_;
   const Number value = value_left(progress(elapsed, value_time_));
   const Number slope = seconds(rate_time_) * slope_left(progress(elapsed, rate_time_));
-  const Number z = progress(elapsed, from_seconds(kShortest_s));
-  const Number curvature =
-      (0.5 * kShortest_s * kShortest_s) * (z * z * (constant(1.0) - z * (constant(3.0) - 3.0 * z + z * z)));
+  const Number curvature = kShortest_s * kShortest_s * curvature_left(progress(elapsed, from_seconds(kShortest_s)));
 
   const auto& p = gap_.position_w_m;
   const auto& l = gap_.winch_m;

@@ -6,7 +6,7 @@
 // reference elsewhere. Flying it at once would be a step. So the gap between what was flown and what is to be flown is
 // measured, in value, rate and acceleration, and added to the reference as a quintic that fades to nothing.
 //
-//   e(x) = e0 (1 − 10x³ + 15x⁴ − 6x⁵) + e0' T (x − 6x³ + 8x⁴ − 3x⁵) + e0'' T² (x²/2 − 3x³/2 + 3x⁴/2 − x⁵/2)
+//   e(t) = e0 v(x) + e0' T s(x) + e0'' T² c(x)          v, s, c as in quintic.hpp
 //   x = (t − t0) / T, each term with its own T: long enough for half the vehicle's speed and acceleration to be left
 //   for the plan itself, and for a gap that is felt not to set the load swinging; no longer, because a rate that fades
 //   over a long T carries far: e0' T / 5, e0'' T² / 60.
@@ -16,7 +16,7 @@
 // looks for the moment t0 − d0 at which the motion comes nearest, flies the motion with a delay d that fades from d0 to
 // nothing by the same quintic, and only what is left beside the path is closed straight.
 //
-//   command(t) = reference(t − d(t)) + e((t − t0) / T)       d0' = 1 − (speed flown / speed of the motion): 1 at rest
+//   command(t) = reference(t − d(t)) + e(t)       d0' = 1 − (speed flown / speed of the motion): 1 at rest
 //
 // Carriers that fell behind together catch up together, and the load is in equilibrium all the way: how long the delay
 // takes depends on the delay alone, not on the vehicle. A vehicle that could not hurry so much closes its gap straight.

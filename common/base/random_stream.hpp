@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "common/base/angle.hpp"
+
 namespace gyre {
 
 class RandomStream {
@@ -37,7 +39,6 @@ class RandomStream {
 
   /// Mean 0, deviation 1 (Box and Muller; one of the pair is thrown away for a stream without memory).
   [[nodiscard]] double normal() {
-    constexpr double kTwoPi = 6.283185307179586476925286766559;
     const double radius = std::sqrt(-2.0 * std::log(uniform()));
     return radius * std::cos(kTwoPi * uniform());
   }

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/angle.hpp"
+
 namespace gyre::mechanics {
 namespace {
 
 using Complex = TrigPolynomial::Complex;
 
-constexpr double kPi = 3.14159265358979323846;
 /// How far F may be off where a cell is settled without its roots, relative to the greatest |F| seen.
 constexpr double kTolerance = 1e-13;
 /// Cells narrower than this are settled by their midpoint: F is flat there to rounding, whatever T's bound says.

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/base/angle.hpp"
+
 namespace gyre::mechanics {
 namespace {
-
-constexpr double kTwoPi = 6.283185307179586476925286766559;
 
 Oscillation held(const Oscillation& oscillation, double theta_rad) {
   Oscillation still = oscillation;

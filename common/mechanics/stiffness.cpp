@@ -5,6 +5,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 
+#include "common/base/angle.hpp"
 #include "common/mechanics/grasp.hpp"
 #include "common/mechanics/range.hpp"
 #include "common/mechanics/reference.hpp"
@@ -45,7 +46,6 @@ double least_stiffness(const Plan& plan, const std::vector<CarrierSlice>& slices
     const Matrix6d k = load_stiffness(plan, slices, t_s);
     return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d>(k, inertia, Eigen::EigenvaluesOnly).eigenvalues()(0);
   };
-  constexpr double kTwoPi = 6.283185307179586;
   const double turns = std::clamp(period_s * std::abs(plan.cycle.rate_rad_s) / kTwoPi, 1.0, 16.0);
   const auto samples = static_cast<int>(std::lround(256.0 * turns));
   const double step = period_s / samples;

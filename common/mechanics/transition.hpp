@@ -1,13 +1,12 @@
 #pragma once
 // The one way to change anything in flight: mix the forces of plans, with weights that are smooth steps of time.
 //
-// Intuition: if f_A and f_B both hold the load, so does (1 − x) f_A + x f_B for every x, because equilibrium is linear
+// Intuition: if f_A and f_B both hold the load, so does (1 − w) f_A + w f_B for every w, because equilibrium is linear
 // in the forces. So engaging, releasing, retuning, freezing, and turning back half-way are the same motion between
 // different plans, and the load is held at every moment of each. What is not linear is the cable: the length law of
 // each plan is applied to the mixed direction, and the lengths are mixed.
 //
-//   f = (1 − x) f_below + x f_plan      l = (1 − x) l_below(q) + x l_plan(q)      x = smooth_step((t − start) /
-//   duration)
+//   f = (1 − w) f_below + w f_plan      l = (1 − w) l_below(q) + w l_plan(q)      w = smooth_step(t − start, duration)
 //
 // A mixture is a stack: a plan at the bottom, and on it one layer per transition under way. A second transition does
 // not have to wait for the first: it lies on top, and when it is complete nothing below it counts any more.
@@ -18,24 +17,10 @@
 #include <cstddef>
 
 #include "common/base/ensure.hpp"
+#include "common/mechanics/quintic.hpp"
 #include "common/mechanics/reference.hpp"
 
 namespace gyre::mechanics {
-
-/// 10 x³ − 15 x⁴ + 6 x⁵: from 0 to 1 with zero first and second derivatives at both ends. `progress` in [0, 1].
-template <class S>
-[[nodiscard]] inline Taylor<S> smooth_step(const Taylor<S>& progress) {
-  const Taylor<S> square = progress * progress;
-  return square * progress * (constant(S(10)) - 15.0 * progress + 6.0 * square);
-}
-
-/// The weight of a transition `elapsed_s` after its start, with its derivatives; held at 0 before and at 1 after.
-[[nodiscard]] inline Taylor<double> transition_weight(double elapsed_s, double duration_s) {
-  if (elapsed_s <= 0.0) return constant(0.0);
-  if (elapsed_s >= duration_s) return constant(1.0);
-  const double pace = 1.0 / duration_s;
-  return smooth_step(Taylor<double>{elapsed_s * pace, pace, 0.0});
-}
 
 template <class S>
 struct Layer {
@@ -50,8 +35,8 @@ template <class S>
   GYRE_ENSURE(count >= 1, "a mixture has at least a bottom layer");
   if (count == 1) return evaluate(*layers[0].slice, layers[0].t_s);
 
-  const auto mix = [](const Taylor<S>& x, const auto& below, const auto& above) {
-    return below + x * (above - below);  // as in the formula, but what both agree on cancels, to the bit
+  const auto mix = [](const Taylor<S>& w, const auto& below, const auto& above) {
+    return below + w * (above - below);  // as in the formula, but what both agree on cancels, to the bit
   };
   TaylorVector<S> f = force(*layers[0].slice, layers[0].t_s);
   for (std::size_t i = 1; i < count; ++i) f = mix(layers[i].weight, f, force(*layers[i].slice, layers[i].t_s));
@@ -87,8 +72,8 @@ inline constexpr std::size_t kMaxLayers = 5;
   GYRE_ENSURE(count <= kMaxLayers, "a course has a bounded number of layers");
   std::array<Layer<double>, kMaxLayers> stack;
   for (std::size_t i = 0; i < count; ++i) {
-    stack[i] = {layers[i].slice, now_s - layers[i].epoch_s,
-                transition_weight(now_s - layers[i].start_s, layers[i].duration_s)};
+    stack[i] = {layers[i].slice, now_s - layers[i].epoch_s, {}};
+    if (i > 0) stack[i].weight = smooth_step(now_s - layers[i].start_s, layers[i].duration_s);
   }
   const std::size_t bottom = complete_layer(layers, count, now_s);
   return evaluate_mixture(stack.data() + bottom, count - bottom);

@@ -1,14 +1,10 @@
 #include "ground/flight/flight_record.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "common/base/angle.hpp"
 
 namespace gyre::ground {
-namespace {
-
-constexpr double kDegreesPerRadian = 57.295779513082320876798154814105;
-
-}  // namespace
 
 void FlownFigures::include(const protocol::CarrierState& state) {
   tension_n.include(state.tension_n);
@@ -35,7 +31,7 @@ void FlightRecord::see(const protocol::CarrierState& state, bool motion_proper) 
 
 void FlightRecord::see(const protocol::LoadState& state, LocalTime arrived) {
   load_.displacement_now_m = (state.position_w_m - position_w_m_).norm();
-  load_.rotation_now_deg = state.orientation_w_b.angularDistance(orientation_w_b_) * kDegreesPerRadian;
+  load_.rotation_now_deg = degrees(state.orientation_w_b.angularDistance(orientation_w_b_));
   load_.displacement_max_m = std::max(load_.displacement_max_m, load_.displacement_now_m);
   load_.rotation_max_deg = std::max(load_.rotation_max_deg, load_.rotation_now_deg);
   ++load_.samples;

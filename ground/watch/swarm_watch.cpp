@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/base/angle.hpp"
 #include "common/base/text.hpp"
 #include "common/protocol/term.hpp"
 #include "ground/course_line.hpp"
@@ -13,7 +14,6 @@ namespace {
 constexpr Duration kStreamSilence = std::chrono::milliseconds(500);
 /// Of the coordinator's word, twice a second and delivered again where it is lost.
 constexpr Duration kWordSilence = std::chrono::seconds(3);
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
 }  // namespace
 
@@ -54,7 +54,7 @@ void SwarmWatch::see(const protocol::Health& health, LocalTime /*arrived*/) {
 void SwarmWatch::see(const protocol::LoadState& load, LocalTime arrived) {
   load_heard_.heard(arrived);
   displacement_now_m_ = (load.position_w_m - load_.position_w_m).norm();
-  rotation_now_deg_ = load.orientation_w_b.angularDistance(load_.orientation_w_b) * kDegrees;
+  rotation_now_deg_ = degrees(load.orientation_w_b.angularDistance(load_.orientation_w_b));
   window_.displacement_max_m = std::max(window_.displacement_max_m, displacement_now_m_);
   window_.rotation_max_deg = std::max(window_.rotation_max_deg, rotation_now_deg_);
   ++window_.samples;

@@ -7,9 +7,9 @@
 // the vehicle back while that is already catching up, and is followed from where the vehicle is then.
 //
 //   e0, e0'   gap in value and rate at t0, when setpoints come again
-//   e(x) = e0 (1 − 10x³ + 15x⁴ − 6x⁵) + e0' T (x − 6x³ + 8x⁴ − 3x⁵)     x = (t − t0) / T, T = kCatchUp_s
+//   e(t) = e0 v(x) + e0' T s(x)     x = (t − t0) / T, T = kCatchUp_s, v and s as in quintic.hpp
 
-#include <algorithm>
+#include "common/mechanics/quintic.hpp"
 
 namespace gyre::simulator {
 
@@ -37,14 +37,11 @@ class CatchUp {
 
   /// What is left of the gap.
   [[nodiscard]] Gap at(double t_s) const {
-    const double x = std::clamp((t_s - begin_s_) / kCatchUp_s, 0.0, 1.0);
-    const double x2 = x * x;
-    const double value = 1.0 - x * x2 * (10.0 + x * (-15.0 + 6.0 * x));
-    const double value_rate = -30.0 * x2 * (1.0 - x) * (1.0 - x) / kCatchUp_s;
-    const double slope = kCatchUp_s * x * (1.0 + x2 * (-6.0 + x * (8.0 - 3.0 * x)));
-    const double slope_rate = 1.0 + x2 * (-18.0 + x * (32.0 - 15.0 * x));
-    return {Quantity(value * gap_.value + slope * gap_.rate),
-            Quantity(value_rate * gap_.value + slope_rate * gap_.rate)};
+    const mechanics::Taylor<double> x = mechanics::progress(t_s - begin_s_, kCatchUp_s);
+    const mechanics::Taylor<double> value = mechanics::value_left(x);
+    const mechanics::Taylor<double> slope = kCatchUp_s * mechanics::slope_left(x);
+    return {Quantity(value.value * gap_.value + slope.value * gap_.rate),
+            Quantity(value.first * gap_.value + slope.first * gap_.rate)};
   }
 
  private:

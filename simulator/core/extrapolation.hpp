@@ -1,7 +1,7 @@
 #pragma once
 // What a setpoint means until the next one comes, and what it means when none comes.
 //
-//   τ = time since the setpoint held, H = kExtrapolationHorizon_s, T = kStoppingTime_s, w = quintic smooth step
+//   τ = time since the setpoint held, H = kExtrapolationHorizon_s, T = kStoppingTime_s, w = smooth step (quintic.hpp)
 //
 //   τ <= H           x = x0 + v0 τ + ½ a0 τ²                    as the setpoint says
 //   H < τ < H + T    x' = (v0 + a0 H) (1 − w((τ − H) / T))      slows down, along the last direction
@@ -11,6 +11,8 @@
 // for longer leaves for infinity, and a stop at once would tear at the cable; so the carrier slows down as smoothly as
 // a transition begins. The velocity has no step anywhere; the acceleration has one, at H. PX4 leaves offboard control
 // after about the same silence (COM_OF_LOSS_T).
+
+#include "common/mechanics/quintic.hpp"
 
 namespace gyre::simulator {
 
@@ -28,10 +30,9 @@ struct ExtrapolationWeights {
 [[nodiscard]] inline ExtrapolationWeights extrapolate(double elapsed_s) {
   constexpr double kHorizon_s = kExtrapolationHorizon_s;
   if (elapsed_s <= kHorizon_s) return {elapsed_s, 0.5 * elapsed_s * elapsed_s, 1.0, elapsed_s};
-  const double x = elapsed_s < kHorizon_s + kStoppingTime_s ? (elapsed_s - kHorizon_s) / kStoppingTime_s : 1.0;
-  // 1 − w(x), and T times its integral from 0 to x.
-  const double share = 1.0 - x * x * x * (10.0 + x * (-15.0 + 6.0 * x));
-  const double travelled_s = kStoppingTime_s * (x - x * x * x * x * (2.5 + x * (-3.0 + x)));
+  const mechanics::Taylor<double> x = mechanics::progress(elapsed_s - kHorizon_s, kStoppingTime_s);
+  const double share = mechanics::value_left(x).value;
+  const double travelled_s = kStoppingTime_s * (x.value - mechanics::smooth_step_integral(x.value));
   return {kHorizon_s + travelled_s, 0.5 * kHorizon_s * kHorizon_s + kHorizon_s * travelled_s, share,
           kHorizon_s * share};
 }

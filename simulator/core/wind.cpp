@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "common/base/ensure.hpp"
-#include "common/mechanics/transition.hpp"
+#include "common/mechanics/quintic.hpp"
 
 namespace gyre::simulator {
 
@@ -24,8 +24,8 @@ void Wind::tick(double now_s) {
 
 Eigen::Vector3d Wind::force_w_n(double t_s) const {
   const double share = (t_s - since_s_) / tick_s_;
-  return mechanics::transition_weight(t_s, kWindRise_s).value * settings_.mean_force_w_n + begin_w_n_ +
-         share * (end_w_n_ - begin_w_n_);
+  const double rise = mechanics::smooth_step(t_s, kWindRise_s).value;
+  return rise * settings_.mean_force_w_n + begin_w_n_ + share * (end_w_n_ - begin_w_n_);
 }
 
 }  // namespace gyre::simulator

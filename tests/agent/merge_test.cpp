@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/angle.hpp"
+
 namespace gyre::agent {
 namespace {
 
@@ -44,7 +46,7 @@ Command circle(SwarmTime at, double radius_m) {
           {2.0 + 0.1 * s, 0.1 * w * c, -0.1 * w * w * s}};
 }
 Path round_and_round(double radius_m) {
-  return {[radius_m](SwarmTime at) { return circle(at, radius_m); }, from_seconds(2.0 * M_PI / kRate_rad_s)};
+  return {[radius_m](SwarmTime at) { return circle(at, radius_m); }, from_seconds(kTwoPi / kRate_rad_s)};
 }
 /// It stands where it should have been `behind` ago.
 Command standing(double radius_m, Duration behind) {

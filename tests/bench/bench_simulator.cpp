@@ -67,7 +67,7 @@ void online_second(benchmark::State& state) {
       for (std::size_t c = 0; c < slices.size(); ++c) {
         const std::array<mechanics::Layer<double>, 2> layers = {
             mechanics::Layer<double>{&rest[c], t_s, mechanics::constant(1.0)},
-            mechanics::Layer<double>{&slices[c], t_s, mechanics::transition_weight(t_s, 20.0)}};
+            mechanics::Layer<double>{&slices[c], t_s, mechanics::smooth_step(t_s, 20.0)}};
         const mechanics::Reference r = mechanics::evaluate_mixture(layers.data(), layers.size());
         const auto winch = r.length_m - (1.0 / plan.cable.stiffness_n_m) * r.tension_n;
         protocol::Setpoint s;

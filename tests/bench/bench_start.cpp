@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "common/base/angle.hpp"
 #include "common/base/text.hpp"
 #include "common/dds/clock.hpp"
 #include "common/mission/mission.hpp"
@@ -29,6 +30,7 @@
 
 namespace {
 
+using gyre::kPi;
 using gyre::ground::ChildProcess;
 using gyre::test::FaultFlight;
 using gyre::test::FlightRecord;
@@ -39,7 +41,6 @@ constexpr int kSteady_s = 10;
 
 /// A ring of n attachments half a metre apart, edge headings, circles of about half a metre.
 gyre::mission::Mission ring(int n) {
-  constexpr double kPi = 3.14159265358979323846;
   const double count = n;
   const double radius = std::max(1.2, 0.6 * count / (2.0 * kPi));
   gyre::mission::Mission mission;

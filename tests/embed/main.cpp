@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <gyre/base/angle.hpp>
 #include <gyre/mechanics/certificate.hpp>
 #include <gyre/mechanics/reference.hpp>
 
@@ -15,9 +16,9 @@ gyre::mechanics::Plan ring() {
   plan.cable.stiffness_n_m = 1e4;
   plan.cycle.rate_rad_s = 1.0;
   for (const unsigned id : {1U, 2U, 3U}) {
-    const double angle = 2.0 * M_PI * id / 3.0;
+    const double angle = gyre::kTwoPi * id / 3.0;
     plan.carriers.push_back({id, {std::cos(angle), std::sin(angle), 0.1}, gyre::mechanics::LengthLaw::level(2.0)});
-    plan.cycle.edges.push_back({id, id % 3 + 1, 0.0, 0.3, angle + 5.0 * M_PI / 6.0});
+    plan.cycle.edges.push_back({id, id % 3 + 1, 0.0, 0.3, angle + 5.0 * gyre::kPi / 6.0});
   }
   plan.limits.speed_min_m_s = 0.1;
   return plan;

@@ -5,13 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "common/base/angle.hpp"
 #include "common/mechanics/carrier_slice.hpp"
 #include "common/mechanics/plan.hpp"
 #include "common/mechanics/reference.hpp"
 
 namespace gyre::mechanics::test {
-
-inline constexpr double kPi = 3.14159265358979323846;
 
 /// tests/data/reference/cases/<name>.json, which was written independently of this code.
 [[nodiscard]] Plan reference_plan(const std::string& name);

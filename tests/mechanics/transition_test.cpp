@@ -52,39 +52,6 @@ Stack random_stack(std::size_t count, std::size_t carriers_max = 5) {
   return stack;
 }
 
-// ------------------------------------------------------------------------------------------------------- smooth step
-
-TEST(SmoothStep, it_leaves_and_arrives_without_speed_or_acceleration) {
-  const auto x = [](double p) { return smooth_step(Taylor<double>{p, 1.0, 0.0}); };
-  EXPECT_EQ(x(0.0).value, 0.0);
-  EXPECT_EQ(x(0.0).first, 0.0);
-  EXPECT_EQ(x(0.0).second, 0.0);
-  EXPECT_NEAR(x(1.0).value, 1.0, 1e-15);
-  EXPECT_NEAR(x(1.0).first, 0.0, 1e-14);
-  EXPECT_NEAR(x(1.0).second, 0.0, 1e-13);
-  double before = 0.0;
-  for (double p = 0.01; p < 1.0; p += 0.01) {
-    EXPECT_GT(x(p).value, before);
-    EXPECT_NEAR(x(p).value + x(1.0 - p).value, 1.0, 1e-14);
-    before = x(p).value;
-  }
-}
-
-TEST(SmoothStep, an_early_reversal_costs_almost_nothing) {
-  // 5 % of the duration late is 0.1 % of the change.
-  EXPECT_NEAR(transition_weight(0.05, 1.0).value, 1e-3, 2e-4);
-}
-
-TEST(SmoothStep, the_weight_is_held_outside_its_window) {
-  for (const double t_s : {-1e9, -1e-9, 0.0}) EXPECT_EQ(transition_weight(t_s, 3.0).value, 0.0);
-  for (const double t_s : {3.0, 3.1, 1e9}) {
-    const Taylor<double> x = transition_weight(t_s, 3.0);
-    EXPECT_EQ(x.value, 1.0);
-    EXPECT_EQ(x.first, 0.0);
-    EXPECT_EQ(x.second, 0.0);
-  }
-}
-
 // ------------------------------------------------------------------------------------------------------------ fact 3
 
 RC_GTEST_PROP(Mixture, it_holds_the_load_at_every_moment_whatever_the_plans, ()) {
@@ -169,7 +136,7 @@ RC_GTEST_PROP(Mixture, lengths_follow_each_law_on_the_mixed_direction, ()) {
   stack.add(below, 0.0, 0.0, 0.0);
   stack.add(above, 0.0, 0.0, 4.0);
   const double now_s = real(0.0, 4.0);
-  const double x = transition_weight(now_s, 4.0).value;
+  const double x = smooth_step(now_s, 4.0).value;
   for (std::size_t i = 0; i < stack.carriers(); ++i) {
     // Two altitudes: the carrier climbs from one to the other as the smooth step does, whatever its direction does.
     const double altitude = (1.0 - x) * below.carriers[i].law.profile.mean + x * above.carriers[i].law.profile.mean;

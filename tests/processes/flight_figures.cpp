@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/angle.hpp"
+
 namespace gyre::test {
 namespace {
 
@@ -39,15 +41,13 @@ void take_return(const Heard<protocol::Setpoint>& first, const Heards<protocol::
 }  // namespace
 
 LoadFigures load_figures(const FlightRecord& record, const mechanics::Load& load, LocalTime from, LocalTime to) {
-  constexpr double kDegrees = 57.29577951308232;
   LoadFigures figures;
   for (const auto& heard : record.load) {
     if (heard.arrived < from || heard.arrived >= to) continue;
     const protocol::LoadState& s = heard.message;
     figures.displacement_max_m = std::max(figures.displacement_max_m, (s.position_w_m - load.position_w_m).norm());
-    figures.rotation_max_deg =
-        std::max(figures.rotation_max_deg,
-                 kDegrees * s.orientation_w_b.angularDistance(Eigen::Quaterniond(load.orientation_w_b)));
+    figures.rotation_max_deg = std::max(
+        figures.rotation_max_deg, degrees(s.orientation_w_b.angularDistance(Eigen::Quaterniond(load.orientation_w_b))));
   }
   return figures;
 }

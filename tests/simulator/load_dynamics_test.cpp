@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <cstdio>
 
+#include "common/base/angle.hpp"
 #include "common/base/random_stream.hpp"
 #include "common/mechanics/grasp.hpp"
 #include "simulator/core/planned_surroundings.hpp"
@@ -87,7 +88,7 @@ TEST(LoadDynamics, PendulumHasTheAnalyticPeriod) {
     g = std::sqrt(a * g);
     a = mean;
   }
-  const double period_s = 2.0 * rigs::kPi * std::sqrt(length_m / load.gravity_m_s2) / a;
+  const double period_s = kTwoPi * std::sqrt(length_m / load.gravity_m_s2) / a;
 
   // The time of the tenth return from x < 0 to x > 0, interpolated.
   const double step_s = 0.002;

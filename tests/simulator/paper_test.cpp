@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <cstdio>
 
+#include "common/base/angle.hpp"
 #include "common/mechanics/grasp.hpp"
 #include "common/mechanics/rest_plan.hpp"
 #include "common/mechanics/stiffness.hpp"
@@ -14,8 +15,6 @@
 
 namespace gyre::simulator {
 namespace {
-
-constexpr double kDegree = rigs::kPi / 180.0;
 
 struct Deviation {
   double displacement_m = 0.0;
@@ -34,7 +33,7 @@ Deviation furthest(const mechanics::Plan& plan, Stretch stretch, double until_s)
     const LoadMotion& m = flight.motion();
     out.displacement_m = std::max(out.displacement_m, (m.position_w_m - plan.load.position_w_m).norm());
     out.rotation_deg =
-        std::max(out.rotation_deg, m.orientation_w_b.angularDistance(plan.load.orientation_w_b) / kDegree);
+        std::max(out.rotation_deg, degrees(m.orientation_w_b.angularDistance(plan.load.orientation_w_b)));
   }
   return out;
 }
@@ -72,7 +71,7 @@ TEST(Paper, WindDisplacesTheLoadByItsStiffness) {
                          Eigen::Vector3d::Zero()};
   LoadIntegrator flight(LoadDynamics(rigid_load(plan)), start, 0.0, [&](double t_s, Surroundings& out) {
     calm(t_s, out);
-    out.force_w_n = mechanics::transition_weight(t_s, rise_s).value * force_w_n;
+    out.force_w_n = mechanics::smooth_step(t_s, rise_s).value * force_w_n;
   });
   mechanics::Vector6d mean = mechanics::Vector6d::Zero();
   int samples = 0;

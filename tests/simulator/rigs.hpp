@@ -4,12 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "common/base/angle.hpp"
 #include "common/mechanics/plan.hpp"
 #include "simulator/core/load_integrator.hpp"
 
 namespace gyre::simulator::rigs {
-
-inline constexpr double kPi = 3.14159265358979323846;
 
 /// The paper's four carriers at constant altitude, on the cables of the reference figures.
 inline mechanics::Plan paper() {

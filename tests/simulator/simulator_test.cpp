@@ -41,7 +41,7 @@ class Agents {
     const double t_s = seconds(since_start);
     const std::array<mechanics::Layer<double>, 2> layers = {
         mechanics::Layer<double>{&rest_[carrier], t_s, mechanics::constant(1.0)},
-        mechanics::Layer<double>{&moving_[carrier], t_s, mechanics::transition_weight(t_s, engage_s_)}};
+        mechanics::Layer<double>{&moving_[carrier], t_s, mechanics::smooth_step(t_s, engage_s_)}};
     const mechanics::Reference r = mechanics::evaluate_mixture(layers.data(), layers.size());
     const auto winch = r.length_m - compliance_m_n_ * r.tension_n;
     protocol::Setpoint s;

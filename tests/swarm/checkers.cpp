@@ -5,6 +5,7 @@
 
 #include "common/base/text.hpp"
 #include "common/mechanics/grasp.hpp"
+#include "common/mechanics/quintic.hpp"
 #include "common/mechanics/skew.hpp"
 #include "common/mechanics/transition.hpp"
 #include "coordinator/core/coordinator.hpp"
@@ -16,9 +17,6 @@ namespace {
 constexpr double kRounding = 1e-9;
 /// A position further than this from where the plan has it is one of an agent that merges.
 constexpr double kMerging_m = 1e-6;
-/// Peaks of the smooth step's derivatives: 15/8 per duration, 10/sqrt(3) per duration squared.
-constexpr double kPacePeak = 1.875;
-constexpr double kBendPeak = 5.7735;
 /// A vehicle is then on its own (agent options: stall), and its agent no longer knows where it is.
 const double kSilenceSeconds = seconds(agent::AgentOptions{}.stall) + 0.05;
 /// Of the clock that is read, by rounding and by reading it at two moments of one step.
@@ -56,7 +54,7 @@ std::vector<Share> shares(const protocol::Course& course, SwarmTime now) {
   std::vector<Share> out{{course.base, 1.0}};
   for (const protocol::Transition& t : course.transitions) {
     if (t.stage != protocol::Stage::kGo || now <= t.start) continue;
-    const double x = mechanics::transition_weight(seconds(now - t.start), seconds(t.duration)).value;
+    const double x = mechanics::smooth_step(seconds(now - t.start), seconds(t.duration)).value;
     for (Share& share : out) share.weight *= 1.0 - x;
     out.push_back({t.to, x});
   }
@@ -91,8 +89,8 @@ double half_applied_bound(double duration_s) {
   const double begins_s = seconds(options.start_check + options.agreement.go_margin) + 0.3;
   double worst = 0.0;
   for (double t_s = 0.0; t_s < begins_s + seconds(options.turning_back); t_s += 0.01) {
-    const double forth = mechanics::transition_weight(t_s, duration_s).value;
-    const double back = mechanics::transition_weight(t_s - begins_s, seconds(options.turning_back)).value;
+    const double forth = mechanics::smooth_step(t_s, duration_s).value;
+    const double back = mechanics::smooth_step(t_s - begins_s, seconds(options.turning_back)).value;
     worst = std::max(worst, forth * (1.0 - back));
   }
   return worst;
@@ -117,12 +115,13 @@ Checkers::Checkers(const LoadWithMotions& load, const Scenario& scenario) : agen
   }
   for (const double n : internal) change_n_ += 2.0 * n;
   shortest_transition_s_ = std::min(seconds(scenario.transition), 2.0);
-  curvature_n_s2_ = change_n_ * (rate_rad_s * rate_rad_s + kBendPeak / std::pow(shortest_transition_s_, 2) +
-                                 2.0 * rate_rad_s * kPacePeak / shortest_transition_s_);
+  curvature_n_s2_ =
+      change_n_ * (rate_rad_s * rate_rad_s + mechanics::kStepCurvaturePeak / std::pow(shortest_transition_s_, 2) +
+                   2.0 * rate_rad_s * mechanics::kStepSlopePeak / shortest_transition_s_);
   // Transitions here are not rehearsed: they may ask for more than the limits, as much as their shortness makes them.
   const double travel_m = 2.0 * reach_m_of(load);
-  acceleration_m_s2_ =
-      2.0 * load.vehicle.acceleration_max_m_s2.value() + kBendPeak * travel_m / std::pow(shortest_transition_s_, 2);
+  acceleration_m_s2_ = 2.0 * load.vehicle.acceleration_max_m_s2.value() +
+                       mechanics::kStepCurvaturePeak * travel_m / std::pow(shortest_transition_s_, 2);
 }
 
 void Checkers::report(Finding::Kind kind, TrueTime at, const std::string& rule, const std::string& text) {
@@ -260,8 +259,8 @@ void Checkers::instant(TrueTime now) {
     changed = std::max(changed, a.changed);
     for (const protocol::Transition& t : a.flown.transitions) {
       duration_s = std::min(duration_s, seconds(t.duration));
-      pace_per_s =
-          std::max(pace_per_s, static_cast<double>(a.flown.transitions.size()) * kPacePeak / seconds(t.duration));
+      pace_per_s = std::max(pace_per_s, static_cast<double>(a.flown.transitions.size()) * mechanics::kStepSlopePeak /
+                                            seconds(t.duration));
     }
   }
   for (const Agent& a : agents_) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/angle.hpp"
 #include "common/base/random_stream.hpp"
 #include "common/mechanics/certificate.hpp"
 #include "common/mechanics/rest_plan.hpp"
@@ -13,7 +14,6 @@ namespace {
 using mechanics::LengthLaw;
 using mechanics::Plan;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr std::size_t kLoads = 16;
 constexpr int kMotionsPerLoad = 3;
 

@@ -31,8 +31,7 @@ gyre::coordinator::Job job_of(const gyre::mission::Mission& mission) {
   job.name = mission.name;
   job.plan = mission.plan;
   if (mission.transition_duration_s) job.transition = gyre::from_seconds(*mission.transition_duration_s);
-  job.on_agent_loss = mission.agent_loss == gyre::mission::AgentLoss::kFreeze ? gyre::coordinator::AgentLoss::kFreeze
-                                                                              : gyre::coordinator::AgentLoss::kContinue;
+  job.on_agent_loss = mission.agent_loss;
   return job;
 }
 

@@ -14,6 +14,7 @@
 
 #include "common/base/result.hpp"
 #include "common/mechanics/plan.hpp"
+#include "common/protocol/agent_loss.hpp"
 
 namespace gyre::mission {
 
@@ -36,8 +37,6 @@ struct Simulation {
   std::optional<Wind> wind;                       ///< absent: calm
 };
 
-enum class AgentLoss { kFreeze, kContinue };
-
 /// How far the load may leave its pose in a flight that counts as good.
 struct LoadTolerance {
   double displacement_max_m = 0.01;
@@ -50,7 +49,7 @@ struct Mission {
   Winch winch;
   Simulation simulation;
   std::optional<double> transition_duration_s;  ///< absent: the coordinator chooses
-  AgentLoss agent_loss = AgentLoss::kFreeze;
+  protocol::AgentLoss agent_loss = protocol::AgentLoss::kFreeze;
   LoadTolerance load_tolerance;
 };
 

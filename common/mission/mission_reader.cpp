@@ -21,6 +21,7 @@ namespace pb = ::gyre::mission::schema;
 using mechanics::Harmonic;
 using mechanics::LengthLaw;
 using mechanics::Oscillation;
+using protocol::AgentLoss;
 
 // What is not absurd. Anything outside is a slip of the unit or of the exponent, not a flight.
 constexpr Span kMassKg{1e-6, 1e6, "kg"};

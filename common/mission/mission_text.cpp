@@ -115,7 +115,7 @@ std::string to_text(const Mission& mission) {
   if (mission.winch.rate_max_m_s) out.mutable_winch()->set_rate_max_m_s(*mission.winch.rate_max_m_s);
   write(mission.simulation, out.mutable_simulation());
   if (mission.transition_duration_s) out.mutable_transition()->set_duration_s(*mission.transition_duration_s);
-  out.set_agent_loss(mission.agent_loss == AgentLoss::kContinue ? pb::CONTINUE : pb::FREEZE);
+  out.set_agent_loss(mission.agent_loss == protocol::AgentLoss::kContinue ? pb::CONTINUE : pb::FREEZE);
 
   std::string text;
   google::protobuf::TextFormat::Printer printer;

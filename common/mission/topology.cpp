@@ -1,8 +1,9 @@
 #include "common/mission/topology.hpp"
 
-#include <algorithm>
 #include <map>
 #include <string>
+
+#include "common/base/text.hpp"
 
 namespace gyre::mission {
 namespace {
@@ -12,15 +13,6 @@ using mechanics::Plan;
 
 /// Attachments closer than this give an edge no direction that means anything.
 constexpr double kLeastEdgeLengthM = 1e-6;
-
-std::string list_of(const std::vector<CarrierId>& ids) {
-  constexpr std::size_t kMaxShown = 12;
-  std::string out;
-  for (std::size_t i = 0; i < std::min(ids.size(), kMaxShown); ++i) {
-    out += (i == 0 ? "" : ", ") + std::to_string(ids[i]);
-  }
-  return ids.size() > kMaxShown ? out + ", ..." : out;
-}
 
 std::string edge_text(CarrierId from, CarrierId to) {
   return "edge { from: " + std::to_string(from) + " to: " + std::to_string(to) + " }";
@@ -81,7 +73,7 @@ class CycleJudge {
     }
     if (attachments_.count(id) != 0) return true;
     ends_unknown_ = true;
-    place.complain(end, "no carrier has id " + std::to_string(id) + "; the carriers are " + list_of(ids_));
+    place.complain(end, "no carrier has id " + std::to_string(id) + "; there are " + listed("carrier", ids_));
     return false;
   }
 

@@ -1,6 +1,6 @@
 #include "coordinator/core/agreement.hpp"
 
-#include "coordinator/core/fleet.hpp"
+#include "common/base/text.hpp"
 
 namespace gyre::coordinator {
 
@@ -51,7 +51,7 @@ Agreement::Step Agreement::step(SwarmTime now, const std::vector<CarrierId>& unc
     return Step::kGo;
   }
   if (transition_.start - now >= options_.go_margin) return Step::kWait;
-  return give_up("not confirmed in time by " + list(unconfirmed));
+  return give_up("not confirmed in time by " + listed("carrier", unconfirmed));
 }
 
 }  // namespace gyre::coordinator

@@ -198,7 +198,7 @@ void Coordinator::on(LocalTime now, const Retune& retune, Outputs& out) {
   if (!room_for_transition()) return refuse("too many transitions are under way; wait until they are complete");
   if (const auto why = retune_obstacle(job_.plan, retune.job.value().plan)) return refuse(*why);
   if (const auto gone = lost(now); !gone.empty())
-    return refuse(list(gone) + " cannot say whether it can be flown: lost");
+    return refuse(listed("carrier", gone) + " cannot say whether it can be flown: lost");
   const bool at_rest = !moves(destination());
   before_retune_ = Mission{job_, rest_, motion_};
   job_ = retune.job.value();
@@ -243,7 +243,7 @@ void Coordinator::listen(LocalTime now, Outputs& out) {
     if (now - *recovering_since_ < (complete ? options_.listening_least : options_.listening)) return;
   } else if (!unheard.empty()) {
     if (now - *listening_since_ < options_.listening) return;
-    const std::string told = "waiting for " + list(unheard) + ": a flight begins with all";
+    const std::string told = "waiting for " + listed("carrier", unheard) + ": a flight begins with all";
     if (told != news_) tell(out, Notice::Level::kInfo, told);
     return;
   }
@@ -333,7 +333,7 @@ std::optional<std::string> Coordinator::complaint(LocalTime now) const {
   if (term_ == 0) return news_.empty() ? "has heard nobody yet" : news_;
   const std::vector<CarrierId> silent = fleet_.missing(now, [](const protocol::AgentStatus&) { return true; });
   if (silent.size() == carriers_.size()) return "no agent is heard";
-  if (!silent.empty()) return list(silent) + (silent.size() == 1 ? " is silent" : " are silent");
+  if (!silent.empty()) return listed("carrier", silent) + (silent.size() == 1 ? " is silent" : " are silent");
   if (budget_in_force_ > Duration::zero() && skew(now) > budget_in_force_) {
     return text("the clocks may disagree by %.3g ms, the plan in force allows %.3g ms", 1e3 * seconds(skew(now)),
                 1e3 * seconds(budget_in_force_));

@@ -20,6 +20,7 @@
 #include "common/base/notice.hpp"
 #include "common/base/result.hpp"
 #include "common/mechanics/plan.hpp"
+#include "common/protocol/agent_loss.hpp"
 #include "common/protocol/messages.hpp"
 #include "coordinator/core/agreement.hpp"
 #include "coordinator/core/fleet.hpp"
@@ -29,14 +30,12 @@
 
 namespace gyre::coordinator {
 
-enum class AgentLoss { kFreeze, kContinue };
-
 /// What is to be flown; its plan is admissible (mechanics/certificate.hpp).
 struct Job {
   std::string name;
   mechanics::Plan plan;
   std::optional<Duration> transition;  ///< absent: the shortest that keeps all limits
-  AgentLoss on_agent_loss = AgentLoss::kFreeze;
+  protocol::AgentLoss on_agent_loss = protocol::AgentLoss::kFreeze;
 };
 
 struct CoordinatorOptions {

@@ -11,6 +11,7 @@
 
 namespace gyre::coordinator {
 
+using protocol::AgentLoss;
 using protocol::PlanNumber;
 using protocol::Stage;
 using protocol::Transition;
@@ -102,7 +103,8 @@ std::optional<std::string> Coordinator::obstacle(LocalTime now, const PlanNumber
   const std::vector<CarrierId> gone = lost(now);
   if (gone.size() == carriers_.size()) return "no agent is heard: check the network between them and here";
   if (!gone.empty() && job_.on_agent_loss == AgentLoss::kFreeze && moves(to)) {
-    return list(gone) + (gone.size() == 1 ? " is" : " are") + " lost, and the mission flies with all or not at all";
+    return listed("carrier", gone) + (gone.size() == 1 ? " is" : " are") +
+           " lost, and the mission flies with all or not at all";
   }
   // In motion it is too late to be choosy: whatever a person asks for then is better than what is.
   if (const auto complaint = readiness_.complaint(now); complaint && moves(to) && !moving()) return complaint;
@@ -133,7 +135,8 @@ void Coordinator::drive(LocalTime now, Outputs& out) {
   const std::vector<CarrierId> baseless = without_base(now);
   if (!baseless.empty() && now - term_since_ > options_.listening && destination() != rest_) {
     // What it knew of it died with a coordinator and an agent; all there is to offer is another plan.
-    tell(out, Notice::Level::kError, "nobody knows the plan in force for " + list(baseless) + ": going to rest");
+    tell(out, Notice::Level::kError,
+         "nobody knows the plan in force for " + listed("carrier", baseless) + ": going to rest");
     Intent intent = intent_to(rest_, std::nullopt);
     intent.rehearsed = false;
     return begin(now, intent);
@@ -141,7 +144,7 @@ void Coordinator::drive(LocalTime now, Outputs& out) {
   const std::vector<CarrierId> gone = lost(now);
   const bool some_gone = !gone.empty() && !cut_off(now);
   if (some_gone && !frozen_for_loss_ && moving() && job_.on_agent_loss == AgentLoss::kFreeze && !shutting_down_) {
-    tell(out, Notice::Level::kError, "lost " + list(gone) + ": freezing where it stopped");
+    tell(out, Notice::Level::kError, "lost " + listed("carrier", gone) + ": freezing where it stopped");
     engage_ = false;
     frozen_for_loss_ = true;
     const auto last = fleet_.last_heard(gone.front());
@@ -220,7 +223,7 @@ void Coordinator::pursue(LocalTime now, Outputs& out) {
   };
   const std::vector<CarrierId> gone = lost(now);
   if (!gone.empty() && job_.on_agent_loss == AgentLoss::kFreeze && moves(agreement_->intent().to)) {
-    return give_up(now, "lost " + list(gone), out);
+    return give_up(now, "lost " + listed("carrier", gone), out);
   }
   if (agreement_->needs_rehearsal()) {
     const auto knows_base = [this](CarrierId id) { return plans_.slice(course_.base.number, id) != nullptr; };
@@ -315,7 +318,8 @@ void Coordinator::check_start(LocalTime now, Outputs& out) {
   starting_.reset();
   if (missing.empty() || shutting_down_) return;
   tell(out, Notice::Level::kWarning,
-       list(missing) + (missing.size() == 1 ? " does" : " do") + " not follow the transition that began: turning back");
+       listed("carrier", missing) + (missing.size() == 1 ? " does" : " do") +
+           " not follow the transition that began: turning back");
   // It was wanted, and still is: nobody has to ask for it again.
   engage_ = engage_ || found->to.number == motion_;
   retry_at_ = now + options_.turning_back;

@@ -55,13 +55,4 @@ std::optional<LocalTime> Fleet::last_heard(CarrierId carrier) const {
   return found == members_.end() ? std::nullopt : found->second.liveness.last();
 }
 
-std::string list(const std::vector<CarrierId>& carriers) {
-  std::string out = carriers.size() == 1 ? "carrier " : "carriers ";
-  for (std::size_t i = 0; i < carriers.size(); ++i) {
-    if (i > 0) out += i + 1 == carriers.size() ? " and " : ", ";
-    out += std::to_string(carriers[i]);
-  }
-  return out;
-}
-
 }  // namespace gyre::coordinator

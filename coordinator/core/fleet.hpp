@@ -3,7 +3,6 @@
 
 #include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "common/protocol/liveness.hpp"
@@ -54,8 +53,5 @@ class Fleet {
   };
   std::map<CarrierId, Member> members_;
 };
-
-/// "carrier 3" or "carriers 1, 3 and 4".
-[[nodiscard]] std::string list(const std::vector<CarrierId>& carriers);
 
 }  // namespace gyre::coordinator

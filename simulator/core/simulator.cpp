@@ -125,11 +125,11 @@ struct Simulator::World {
   }
 
   [[nodiscard]] std::optional<std::string> complaint(LocalTime now) const {
-    std::string silent;
+    std::vector<CarrierId> silent;
     for (const Vehicle& vehicle : vehicles) {
-      if (vehicle.led.silent(now)) silent += (silent.empty() ? "" : ", ") + std::to_string(vehicle.id);
+      if (vehicle.led.silent(now)) silent.push_back(vehicle.id);
     }
-    if (!silent.empty()) return "no setpoints for carriers " + silent;
+    if (!silent.empty()) return "no setpoints for " + listed("carrier", silent);
     if (now - time() > kToleratedLag) return text("%.2f s behind real time", seconds(now - time()));
     return std::nullopt;
   }

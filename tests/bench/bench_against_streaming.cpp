@@ -192,7 +192,7 @@ class GyreFlight {
   };
 
   static gyre::coordinator::Job job(const gyre::mission::Mission& mission) {
-    return {mission.name, mission.plan, std::nullopt, gyre::coordinator::AgentLoss::kFreeze};
+    return {mission.name, mission.plan, std::nullopt, gyre::protocol::AgentLoss::kFreeze};
   }
   static gyre::coordinator::CoordinatorOptions options() {
     gyre::coordinator::CoordinatorOptions options;

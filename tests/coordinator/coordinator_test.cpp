@@ -18,7 +18,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using test::SwarmOfAgents;
 
-Job job(AgentLoss policy = AgentLoss::kFreeze) {
+Job job(protocol::AgentLoss policy = protocol::AgentLoss::kFreeze) {
   Job j;
   j.name = "polygon";
   j.plan = mechanics::test::polygon_plan(4);
@@ -208,7 +208,7 @@ TEST(Coordinator, NamesALostAgentAndFreezesWhereItStopped) {
 }
 
 TEST(Coordinator, FliesOnWithoutTheLostIfTheMissionSaysSo) {
-  Flying swarm(job(AgentLoss::kContinue));
+  Flying swarm(job(protocol::AgentLoss::kContinue));
   swarm.stop_agent(2);
   swarm.fly(seconds(10));
   EXPECT_FALSE(says(swarm.news, "freezing"));
@@ -228,7 +228,7 @@ TEST(Coordinator, AnEngageThatLosesAnAgentBeforeItIsGoDoesNotBegin) {
 }
 
 TEST(Coordinator, EndsAtRestWithDeadAgentsToo) {
-  Flying swarm(job(AgentLoss::kContinue));
+  Flying swarm(job(protocol::AgentLoss::kContinue));
   swarm.stop_agent(2);
   swarm.tell(Shutdown{});
   swarm.fly(seconds(120));

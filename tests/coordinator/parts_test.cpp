@@ -49,8 +49,6 @@ TEST(Fleet, TellsWhoCameWentAndCameBackAnother) {
   ASSERT_EQ(changes.size(), 1U);
   EXPECT_TRUE(changes[0].restarted);
   EXPECT_EQ(fleet.missing(kNow + seconds(1), [](const auto&) { return true; }), std::vector<CarrierId>{2});
-  EXPECT_EQ(list({1}), "carrier 1");
-  EXPECT_EQ(list({1, 3, 4}), "carriers 1, 3 and 4");
 }
 
 TEST(PlanBook, KnowsAPlanByWhatItIs) {

@@ -32,19 +32,19 @@ TEST(Readiness, DepartsOnlyWhenNobodyComplains) {
   };
   complain("ground", "has nothing to look at");
   complain("agent 77", "is none of this swarm");
-  complain("simulator", "no setpoints for carriers 2");
+  complain("simulator", "no setpoints for carrier 2");
   swarm.fly(milliseconds(900));
   EXPECT_TRUE(swarm.coordinator().course().transitions.empty());
   EXPECT_FALSE(says(swarm.news, "does not begin")) << "it may be only late";
-  complain("simulator", "no setpoints for carriers 2");
+  complain("simulator", "no setpoints for carrier 2");
   swarm.fly(milliseconds(2500));
-  EXPECT_TRUE(says(swarm.news, "the motion does not begin: simulator: no setpoints for carriers 2"));
+  EXPECT_TRUE(says(swarm.news, "the motion does not begin: simulator: no setpoints for carrier 2"));
   EXPECT_TRUE(says(swarm.command(CommandKind::kEngage, milliseconds(20)), "refused: simulator: no setpoints"));
   EXPECT_TRUE(swarm.coordinator().course().transitions.empty());
   complain("simulator", "");
   swarm.fly(seconds(2));
   EXPECT_FALSE(swarm.coordinator().course().transitions.empty());
-  complain("simulator", "no setpoints for carriers 2");
+  complain("simulator", "no setpoints for carrier 2");
   EXPECT_TRUE(says(swarm.command(CommandKind::kRelease), "done")) << "in motion nobody is asked";
 }
 
@@ -52,7 +52,7 @@ TEST(Readiness, DoesNotWaitForWhoComplainedAndFellSilent) {
   CoordinatorOptions options;
   options.engage_when_ready = true;
   SwarmOfAgents swarm(job(), options);
-  swarm.tell(protocol::Health{"simulator", "no setpoints for carriers 2", {}, 0, 0, 0});
+  swarm.tell(protocol::Health{"simulator", "no setpoints for carrier 2", {}, 0, 0, 0});
   swarm.fly(seconds(6));
   EXPECT_FALSE(swarm.coordinator().course().transitions.empty());
 }

@@ -90,7 +90,7 @@ const BadInput kBadInputs[] = {
     {"RateMissing", "rate_rad_s: 1\n", "\n", 14, "cycle.rate_rad_s: is missing", "give a number"},
     {"AmplitudeMissing", "amplitude_n: 4", "", 16, "cycle.edge[0].amplitude_n: is missing", "give a number"},
     {"PhaseMissing", "phase_rad: 0.1", "", 16, "cycle.edge[0].phase_rad: is missing", "give a number"},
-    {"Stranger", kEdge2, "edge { from: 2 to: 9", 17, "cycle.edge[1].to: no carrier has id 9", "the carriers are 1, 2, 3, 4"},
+    {"Stranger", kEdge2, "edge { from: 2 to: 9", 17, "cycle.edge[1].to: no carrier has id 9", "there are carriers 1, 2, 3 and 4"},
     {"EdgeToItself", kEdge2, "edge { from: 2 to: 2", 17, "cycle.edge[1].to", "two different carriers"},
     {"OutOfOrder", kEdge2, "edge { from: 3 to: 2", 17, "cycle.edge[1].from: starts at 3", "in order of travel"},
     {"VisitedTwice", kEdge4, "edge { from: 3 to: 1", 14, "carrier 3 is visited twice", "visits every carrier exactly once"},

@@ -116,7 +116,7 @@ TEST(Reading, AllIsWhereTheFileSays) {
   EXPECT_EQ(mission.simulation.wind->force_w_n, Eigen::Vector3d(1, -2, 0));
   EXPECT_EQ(mission.simulation.wind->seed, 7u);
   EXPECT_EQ(mission.transition_duration_s, 20.0);
-  EXPECT_EQ(mission.agent_loss, mission::AgentLoss::kContinue);
+  EXPECT_EQ(mission.agent_loss, protocol::AgentLoss::kContinue);
 }
 
 TEST(Reading, WhatAbsenceMeans) {
@@ -133,7 +133,7 @@ TEST(Reading, WhatAbsenceMeans) {
   EXPECT_EQ(mission.simulation.carrier_time_constant_s, std::nullopt);
   EXPECT_FALSE(mission.simulation.wind);
   EXPECT_EQ(mission.transition_duration_s, std::nullopt);
-  EXPECT_EQ(mission.agent_loss, mission::AgentLoss::kFreeze);
+  EXPECT_EQ(mission.agent_loss, protocol::AgentLoss::kFreeze);
 }
 
 TEST(Reading, UncompensatedStretchReachesTheSlices) {

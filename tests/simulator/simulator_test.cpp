@@ -77,9 +77,9 @@ TEST(Simulator, ComplainsOfCarriersThatNobodyLeadsAndOfTimeThatIsBehind) {
   const auto advance_to = [&](Duration at) {
     while (simulator.simulated() < at) (void)simulator.step(kStart + at, Advance{});
   };
-  EXPECT_EQ(complaint(milliseconds(0)), "no setpoints for carriers 1, 2, 3, 4");
+  EXPECT_EQ(complaint(milliseconds(0)), "no setpoints for carriers 1, 2, 3 and 4");
   lead(3, milliseconds(0));
-  EXPECT_EQ(complaint(milliseconds(0)), "no setpoints for carriers 4");
+  EXPECT_EQ(complaint(milliseconds(0)), "no setpoints for carrier 4");
   lead(4, milliseconds(10));
   EXPECT_EQ(complaint(milliseconds(10)), "none");
   lead(4, milliseconds(500));
@@ -87,7 +87,7 @@ TEST(Simulator, ComplainsOfCarriersThatNobodyLeadsAndOfTimeThatIsBehind) {
   advance_to(milliseconds(500));
   EXPECT_EQ(complaint(milliseconds(500)), "none");
   advance_to(milliseconds(1510));
-  EXPECT_EQ(complaint(milliseconds(1510)), "no setpoints for carriers 1, 2, 3, 4");
+  EXPECT_EQ(complaint(milliseconds(1510)), "no setpoints for carriers 1, 2, 3 and 4");
 }
 
 TEST(Simulator, RestsUntilTheFirstSetpointAndPublishesAtItsRate) {

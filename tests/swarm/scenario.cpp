@@ -150,7 +150,7 @@ Scenario scenario(std::uint64_t seed) {
   w.clocks();
   w.start_all(w.chance(0.8) ? 0.5 : 4.0);
   Scenario& s = w.scenario();
-  s.on_agent_loss = w.chance(0.5) ? coordinator::AgentLoss::kFreeze : coordinator::AgentLoss::kContinue;
+  s.on_agent_loss = w.chance(0.5) ? protocol::AgentLoss::kFreeze : protocol::AgentLoss::kContinue;
   s.transition = w.span(2.0, 6.0);
   s.engage_when_ready = w.chance(0.6);
   s.rehearse = w.chance(0.005);

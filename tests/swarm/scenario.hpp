@@ -49,7 +49,7 @@ struct Scenario {
   std::vector<Duration> clock_offsets;
   std::vector<double> clock_drifts;
   double clock_wander_per_sqrt_s = 0.0;
-  coordinator::AgentLoss on_agent_loss = coordinator::AgentLoss::kFreeze;
+  protocol::AgentLoss on_agent_loss = protocol::AgentLoss::kFreeze;
   Duration transition{};
   bool engage_when_ready = false;
   bool rehearse = false;

@@ -17,7 +17,7 @@ int replay(std::uint64_t seed) {
   std::printf("seed %llu: load %zu with %zu carriers, transitions of %.2f s, agent loss: %s\n",
               static_cast<unsigned long long>(seed), scenario.load, swarm::loads()[scenario.load].size(),
               seconds(scenario.transition),
-              scenario.on_agent_loss == gyre::coordinator::AgentLoss::kFreeze ? "freeze" : "continue");
+              scenario.on_agent_loss == gyre::protocol::AgentLoss::kFreeze ? "freeze" : "continue");
   const auto trace = [](swarm::TrueTime at, const std::string& what) {
     std::printf("%9.4f  %s\n", seconds(at.time_since_epoch()), what.c_str());
   };

@@ -108,7 +108,7 @@ TEST(Calm, TheSameSeedIsTheSameFlight) {
 }
 
 /// A steady flight in which one agent dies at `at_s`; looked at until `until_s`.
-FaultCounts lose_one(coordinator::AgentLoss policy, double at_s, double until_s, std::size_t* transitions) {
+FaultCounts lose_one(protocol::AgentLoss policy, double at_s, double until_s, std::size_t* transitions) {
   Scenario s = calm_scenario(5, 0);
   s.on_agent_loss = policy;
   const auto not_a_start = [](const Action& a) { return a.deed != Deed::kStart; };
@@ -128,11 +128,11 @@ FaultCounts lose_one(coordinator::AgentLoss policy, double at_s, double until_s,
 TEST(AgentLoss, IsNamedWithinHalfASecondAndThePolicyActs) {
   for (double at_s = 10.0; at_s < 11.0; at_s += 0.05) {
     std::size_t transitions = 0;
-    const FaultCounts frozen = lose_one(coordinator::AgentLoss::kFreeze, at_s, at_s + 1.5, &transitions);
+    const FaultCounts frozen = lose_one(protocol::AgentLoss::kFreeze, at_s, at_s + 1.5, &transitions);
     EXPECT_EQ(frozen.losses_named, 1U);
     EXPECT_EQ(frozen.frozen_for_loss, 1U);
     EXPECT_EQ(transitions, 1U) << "the freeze is agreed";
-    const FaultCounts continued = lose_one(coordinator::AgentLoss::kContinue, at_s, at_s + 4.0, &transitions);
+    const FaultCounts continued = lose_one(protocol::AgentLoss::kContinue, at_s, at_s + 4.0, &transitions);
     EXPECT_EQ(continued.losses_named, 1U);
     EXPECT_EQ(continued.frozen_for_loss, 0U);
     EXPECT_EQ(transitions, 0U) << "the others fly on";

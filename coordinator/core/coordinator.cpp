@@ -345,9 +345,10 @@ protocol::CoordinatorStatus Coordinator::status(LocalTime now) const {
   protocol::CoordinatorStatus s;
   s.term = term_;
   s.swarm_time = swarm_time(now);
-  s.mission = job_.name.substr(0, protocol::kMaxTextBytes);
-  s.rest = rest_;
-  s.motion = motion_;
+  // Until a retune is agreed, the mission in force is the one before it.
+  s.mission = (before_retune_ ? before_retune_->job : job_).name.substr(0, protocol::kMaxTextBytes);
+  s.rest = before_retune_ ? before_retune_->rest : rest_;
+  s.motion = before_retune_ ? before_retune_->motion : motion_;
   s.skew_budget = budget_in_force_;
   s.skew = skew(now);
   s.carriers = carriers_;

@@ -41,6 +41,7 @@ void Flight::listen(dds::Node& node) {
     inbox->push({std::move(message), arrived});
   };
   node.read<protocol::Beacon>(enqueue);
+  node.read<protocol::CoordinatorStatus>(enqueue);
   node.read<protocol::LoadState>(enqueue);
   for (const CarrierId id : carrier_ids(mission_)) {
     node.read<protocol::AgentStatus>(enqueue, id);
@@ -77,6 +78,9 @@ void Flight::take(const Event& event) {
     monitor_.see(*beacon, event.arrived);
     certificate_.include(beacon->course);
     record_.see_beacon();
+  } else if (const auto* word = std::get_if<protocol::CoordinatorStatus>(&event.message)) {
+    monitor_.see(*word);
+    certificate_.see(*word);
   } else if (const auto* status = std::get_if<protocol::AgentStatus>(&event.message)) {
     monitor_.see(*status, event.arrived);
     if (monitor_.under_way(event.arrived)) record_.see(*status);

@@ -41,7 +41,8 @@ class Flight {
   [[nodiscard]] std::optional<FlightReport> report() const;
 
  private:
-  using Message = std::variant<protocol::Beacon, protocol::AgentStatus, protocol::CarrierState, protocol::LoadState>;
+  using Message = std::variant<protocol::Beacon, protocol::CoordinatorStatus, protocol::AgentStatus,
+                               protocol::CarrierState, protocol::LoadState>;
   struct Event {
     Message message;
     LocalTime arrived;

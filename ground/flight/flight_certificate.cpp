@@ -44,6 +44,7 @@ FlightCertificate::FlightCertificate(const mechanics::Plan& motion)
       rest_slices_(mechanics::slices(mechanics::rest_plan(motion))) {}
 
 void FlightCertificate::include(const protocol::Course& course) {
+  if (!plans_.known()) return;
   protocol::Course flown = course;
   flown.revision = 0;  // a new revision of the same stack is the same motion
   auto& transitions = flown.transitions;
@@ -52,7 +53,7 @@ void FlightCertificate::include(const protocol::Course& course) {
                     transitions.end());
   if (transitions.empty()) return;
   for (const protocol::PlanNumber& number : protocol::plans_of(flown)) {
-    if (number.revision != kRestRevision && number.revision != kMotionRevision) {
+    if (number != plans_.rest && number != plans_.motion) {
       knows_all_plans_ = false;
       return;
     }
@@ -66,7 +67,7 @@ std::vector<FlightCertificate::CarrierBounds> FlightCertificate::bounds() const 
     CarrierBounds carrier{motion_.carriers[i].id, motion_.carriers[i], motion_.carriers[i]};
     widen(carrier.whole, rest_.carriers[i]);
     const auto slice_of = [&](const protocol::PlanNumber& number) {
-      return number.revision == kRestRevision ? &rest_slices_[i] : &motion_slices_[i];
+      return number == plans_.rest ? &rest_slices_[i] : &motion_slices_[i];
     };
     for (const protocol::Course& course : courses_) widen(carrier.whole, figures_of(course, slice_of));
     bounds.push_back(carrier);

@@ -5,23 +5,21 @@
 // not hold for the rest plan or for the mixtures, so each transition that was really flown (the beacons' course tells)
 // is enclosed too, and the whole flight is held against the hull of all of them.
 
-#include <optional>
 #include <vector>
 
 #include "common/mechanics/certificate.hpp"
 #include "common/protocol/messages.hpp"
+#include "ground/flight/mission_plans.hpp"
 
 namespace gyre::ground {
-
-/// The plans a coordinator starts with, in every term.
-inline constexpr std::uint64_t kRestRevision = 1;
-inline constexpr std::uint64_t kMotionRevision = 2;
 
 class FlightCertificate {
  public:
   explicit FlightCertificate(const mechanics::Plan& motion);
 
-  /// Remembers the transitions of a course that are go. Cheap; the same course may come any number of times.
+  void see(const protocol::CoordinatorStatus& status) { plans_.learn(status); }
+  /// Remembers the transitions of a course that are go. Cheap; the same course may come any number of times, and has
+  /// to: before the coordinator has told which plan is which, it says nothing.
   void include(const protocol::Course& course);
 
   /// A plan the flight went to that this mission does not tell: what follows cannot be judged.
@@ -40,6 +38,7 @@ class FlightCertificate {
   mechanics::Certificate rest_;
   std::vector<mechanics::CarrierSlice> motion_slices_;
   std::vector<mechanics::CarrierSlice> rest_slices_;
+  MissionPlans plans_;
   std::vector<protocol::Course> courses_;  // each with at least one transition, all of them go
   bool knows_all_plans_ = true;
 };

@@ -4,23 +4,12 @@
 
 #include "common/base/text.hpp"
 #include "common/protocol/course.hpp"
-#include "ground/flight/flight_certificate.hpp"
 
 namespace gyre::ground {
 namespace {
 
 bool is_go(const protocol::Transition& transition) {
   return transition.stage == protocol::Stage::kGo;
-}
-
-/// "agent 2", "agents 2, 5 and 7".
-std::string listed(const std::vector<CarrierId>& carriers) {
-  std::string out = carriers.size() == 1 ? "agent " : "agents ";
-  for (std::size_t i = 0; i < carriers.size(); ++i) {
-    if (i > 0) out += i + 1 == carriers.size() ? " and " : ", ";
-    out += std::to_string(carriers[i]);
-  }
-  return out;
 }
 
 }  // namespace
@@ -52,7 +41,7 @@ void FlightMonitor::see(const protocol::Beacon& beacon, LocalTime arrived) {
   coordinator_.heard(arrived);
   beacon_ = beacon;
   beacon_arrived_ = arrived;
-  remember_motion();
+  if (plans_.known()) remember_motion();
 }
 
 void FlightMonitor::see(const protocol::AgentStatus& status, LocalTime arrived) {
@@ -60,9 +49,10 @@ void FlightMonitor::see(const protocol::AgentStatus& status, LocalTime arrived) 
   if (found == agents_.end()) return;
   Agent& agent = found->second;
   agent.heard.heard(arrived);
-  agent.ready = std::any_of(status.accepted.begin(), status.accepted.end(),
-                            [](const protocol::PlanNumber& plan) { return plan.revision == kMotionRevision; });
-  if (status.refused.revision == kMotionRevision) agent.refusal = status.refusal;
+  if (!plans_.known()) return;
+  const auto& accepted = status.accepted;
+  agent.ready = std::find(accepted.begin(), accepted.end(), plans_.motion) != accepted.end();
+  if (status.refused == plans_.motion) agent.refusal = status.refusal;
   if (!all_ready_ && agents_ready() == agents()) all_ready_ = arrived;
 }
 
@@ -76,7 +66,7 @@ int FlightMonitor::agents_ready() const {
 }
 
 FlightPhase FlightMonitor::phase(LocalTime now) const {
-  if (!coordinator_.ever_heard() || !simulator_.ever_heard()) return FlightPhase::kStarting;
+  if (!coordinator_.ever_heard() || !plans_.known() || !simulator_.ever_heard()) return FlightPhase::kStarting;
   switch (place(now)) {
     case Place::kTowardsMotion:
       return FlightPhase::kEngaging;
@@ -111,6 +101,9 @@ std::optional<std::string> FlightMonitor::complaint(LocalTime now) const {
   switch (phase(now)) {
     case FlightPhase::kStarting:
       if (now - begin_ <= patience_.starting) return std::nullopt;
+      if (coordinator_.ever_heard() && !plans_.known()) {
+        return "the coordinator did not tell which plan is which" + waited(patience_.starting);
+      }
       return std::string(coordinator_.ever_heard() ? "the simulator" : "the coordinator") + " was not heard" +
              waited(patience_.starting);
     case FlightPhase::kMatching: {
@@ -119,7 +112,7 @@ std::optional<std::string> FlightMonitor::complaint(LocalTime now) const {
       for (const auto& [id, agent] : agents_) {
         if (!agent.ready) missing.push_back(id);
       }
-      return listed(missing) + " did not accept the motion" + waited(patience_.matching);
+      return listed("agent", missing) + " did not accept the motion" + waited(patience_.matching);
     }
     case FlightPhase::kEngaging:
       if (place(now) == Place::kRest && now - *all_ready_ > patience_.engaging) {
@@ -143,7 +136,7 @@ std::optional<std::string> FlightMonitor::somebody_silent(LocalTime now) const {
   }
   if (coordinator_.silent(now)) return "the coordinator was" + silent;
   if (simulator_.silent(now)) return "the simulator was" + silent;
-  if (!agents.empty()) return listed(agents) + (agents.size() == 1 ? " was" : " were") + silent;
+  if (!agents.empty()) return listed("agent", agents) + (agents.size() == 1 ? " was" : " were") + silent;
   return std::nullopt;
 }
 
@@ -160,16 +153,17 @@ FlightMonitor::Place FlightMonitor::place(LocalTime now) const {
   for (const protocol::Transition& transition : course.transitions) {
     if (is_go(transition) && transition.start <= at) top = transition.to.number;
   }
-  if (top.revision == kRestRevision) return mixing ? Place::kTowardsRest : Place::kRest;
-  if (top.revision == kMotionRevision) return mixing ? Place::kTowardsMotion : Place::kMotion;
-  return top.none() ? Place::kRest : Place::kElsewhere;
+  if (!plans_.known()) return Place::kRest;
+  if (top == plans_.rest) return mixing ? Place::kTowardsRest : Place::kRest;
+  if (top == plans_.motion) return mixing ? Place::kTowardsMotion : Place::kMotion;
+  return Place::kElsewhere;
 }
 
 void FlightMonitor::remember_motion() {
   for (const protocol::Transition& transition : beacon_.course.transitions) {
     if (!is_go(transition)) continue;
     transition_duration_ = transition.duration;
-    if (transition.to.number.revision == kMotionRevision) {
+    if (transition.to.number == plans_.motion) {
       motion_complete_ = transition.end();
       motion_left_.reset();
     } else {

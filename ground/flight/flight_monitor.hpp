@@ -10,11 +10,12 @@
 
 #include "common/protocol/liveness.hpp"
 #include "common/protocol/messages.hpp"
+#include "ground/flight/mission_plans.hpp"
 
 namespace gyre::ground {
 
 enum class FlightPhase {
-  kStarting,   ///< the coordinator or the simulator has not been heard
+  kStarting,   ///< the coordinator or the simulator has not been heard, or not which plan is which
   kMatching,   ///< not every agent has accepted the motion
   kEngaging,   ///< from rest to the motion; also the wait for it to begin
   kFlying,     ///< the motion, and no transition under way
@@ -37,6 +38,7 @@ class FlightMonitor {
   FlightMonitor(const std::vector<CarrierId>& carriers, LocalTime now, const FlightPatience& patience = {});
 
   void see(const protocol::Beacon& beacon, LocalTime arrived);
+  void see(const protocol::CoordinatorStatus& status) { plans_.learn(status); }
   void see(const protocol::AgentStatus& status, LocalTime arrived);
   void see(const protocol::CarrierState& state, LocalTime arrived);
 
@@ -72,6 +74,7 @@ class FlightMonitor {
   std::map<CarrierId, Agent> agents_;
   protocol::Liveness simulator_;
   protocol::Liveness coordinator_;
+  MissionPlans plans_;
   protocol::Beacon beacon_;
   LocalTime beacon_arrived_{};
   std::optional<LocalTime> all_ready_;

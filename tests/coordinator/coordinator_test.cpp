@@ -51,7 +51,7 @@ void watch(SwarmOfAgents& swarm) {
 }
 
 struct Flying : SwarmOfAgents {
-  explicit Flying(const Job& j = job()) : SwarmOfAgents(j) {
+  explicit Flying(const Job& j = job(), const CoordinatorOptions& options = {}) : SwarmOfAgents(j, options) {
     watch(*this);
     fly(seconds(2));
     EXPECT_TRUE(says(command(CommandKind::kEngage), "done")) << news;
@@ -249,6 +249,30 @@ TEST(Coordinator, RetunesInFlight) {
   EXPECT_TRUE(swarm.moves());
 }
 
+TEST(Coordinator, ItsStatusNamesThePlansOfTheMissionInForce) {
+  CoordinatorOptions options;
+  options.status_period = options.beacon_period;
+  Flying swarm(job(), options);
+  const std::string first = swarm.status->mission;
+  const auto inner = swarm.visit;
+  swarm.visit = [&, inner] {
+    inner();
+    const protocol::Course& course = swarm.coordinator().course();
+    const auto& above = course.transitions;
+    const bool going = !above.empty() && above.back().stage == Stage::kGo;
+    EXPECT_EQ(swarm.status->motion, going ? above.back().to.number : course.base.number);
+  };
+  Job faster = job();
+  faster.name = "faster";
+  faster.plan.cycle.rate_rad_s *= 1.2;
+  swarm.deaf = {1};
+  EXPECT_TRUE(says(swarm.retune(faster), "given up"));
+  EXPECT_EQ(swarm.status->mission, first);
+  swarm.deaf.clear();
+  EXPECT_TRUE(says(swarm.retune(faster), "done"));
+  EXPECT_EQ(swarm.status->mission, "faster");
+}
+
 TEST(Coordinator, ARefusedRetuneLeavesTheFlightAndItsMission) {
   Flying swarm;
   const protocol::Course before = swarm.coordinator().course();
@@ -291,6 +315,7 @@ TEST(Coordinator, RestartedItGoesOnAndTheFlightDoesNotNotice) {
   for (const int after_ms : {0, 700, 1200, 3000, 20'000}) {  // before, while and after a transition
     Flying swarm;
     (void)swarm.command(CommandKind::kRelease, milliseconds(after_ms));
+    const protocol::CoordinatorStatus told = *swarm.status;
     const protocol::Course before = swarm.coordinator().course();
     const std::uint64_t term = swarm.coordinator().term();
     const Duration offset = swarm.beacon->swarm_time.time_since_epoch() - swarm.now.time_since_epoch();
@@ -320,9 +345,12 @@ TEST(Coordinator, RestartedItGoesOnAndTheFlightDoesNotNotice) {
     const Duration now = swarm.beacon->swarm_time.time_since_epoch() - swarm.now.time_since_epoch();
     EXPECT_LT(std::abs(gyre::seconds(now - offset)), 0.011 + 1e-3);  // a beacon is up to two steps of the rig old
     // The plans are known again by what they are.
-    EXPECT_TRUE(says(swarm.command(expected.base.number.revision == 1 ? CommandKind::kEngage : CommandKind::kRelease),
-                     "done") ||
-                !expected.transitions.empty());
+    EXPECT_EQ(swarm.status->term, swarm.coordinator().term());
+    EXPECT_EQ(swarm.status->rest, told.rest);
+    EXPECT_EQ(swarm.status->motion, told.motion);
+    EXPECT_TRUE(
+        says(swarm.command(expected.base.number == told.rest ? CommandKind::kEngage : CommandKind::kRelease), "done") ||
+        !expected.transitions.empty());
   }
 }
 

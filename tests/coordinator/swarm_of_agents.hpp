@@ -44,6 +44,7 @@ class SwarmOfAgents {
     for (const Notice& notice : out.notices) news += notice.text + "\n";
     for (const protocol::CommandReply& reply : out.replies) replies.push_back(reply);
     if (out.finished) finished = out.finished;
+    if (out.status) status = out.status;
     for (const protocol::PlanOffer& offer : out.offers) {
       most_offered = std::max(most_offered, offer.slices.size());
       last_offers[offer.carrier] = offer;
@@ -89,6 +90,7 @@ class SwarmOfAgents {
   std::vector<protocol::CommandReply> replies;
   std::optional<Outcome> finished;
   std::optional<protocol::Beacon> beacon;
+  std::optional<protocol::CoordinatorStatus> status;
   std::map<CarrierId, protocol::Setpoint> setpoints;
   std::map<CarrierId, protocol::AgentStatus> statuses;
   std::map<CarrierId, protocol::PlanOffer> last_offers;
@@ -127,10 +129,10 @@ class SwarmOfAgents {
     }
     if (out.time_request) tell(TimeRequestArrived{*out.time_request, now});
     if (out.status) {
-      protocol::AgentStatus status = *out.status;
-      if (change_status) change_status(status);
-      statuses[id] = status;
-      tell(status);
+      protocol::AgentStatus told = *out.status;
+      if (change_status) change_status(told);
+      statuses[id] = told;
+      tell(told);
     }
   }
 

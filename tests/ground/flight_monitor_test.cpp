@@ -6,16 +6,13 @@
 
 #include <string>
 
-#include "ground/flight/flight_certificate.hpp"
-
 namespace gyre::ground {
 namespace {
 
 using protocol::Stage;
 
-constexpr double kSwarmAhead_s = 5000.0;  // swarm time has nothing to do with this process's clock
-const protocol::PlanNumber kRest{1, kRestRevision};
-const protocol::PlanNumber kMotion{1, kMotionRevision};
+constexpr double kSwarmAhead_s = 5000.0;                    // swarm time has nothing to do with this process's clock
+constexpr protocol::PlanNumber kRest{7, 9}, kMotion{5, 2};  // whatever they are called
 
 LocalTime local(double time_s) {
   return LocalTime(from_seconds(time_s));
@@ -42,6 +39,14 @@ class FlightMonitorTest : public testing::Test {
     beacon.course = course;
     monitor.see(beacon, local(time_s));
   }
+  /// The coordinator's, while the mission in force has this motion.
+  void word(const protocol::PlanNumber& motion = kMotion, std::uint64_t term = 7) {
+    protocol::CoordinatorStatus status;
+    status.term = term;
+    status.rest = kRest;
+    status.motion = motion;
+    monitor.see(status);
+  }
   void agent(CarrierId id, double time_s, bool ready = true) {
     protocol::AgentStatus status;
     status.carrier = id;
@@ -50,6 +55,7 @@ class FlightMonitorTest : public testing::Test {
   }
   void everybody(double time_s) {
     beacon(time_s);
+    word();
     for (const CarrierId id : {1U, 2U, 5U}) agent(id, time_s);
     monitor.see(protocol::CarrierState{}, local(time_s));
   }
@@ -62,6 +68,10 @@ TEST_F(FlightMonitorTest, GoesThroughAWholeFlight) {
   beacon(0.5);
   EXPECT_EQ(phase(0.5), "starting");  // no simulator yet
   monitor.see(protocol::CarrierState{}, local(0.6));
+  agent(1, 0.6);
+  EXPECT_EQ(phase(0.6), "starting");  // and nobody knows yet which plan is the motion
+  EXPECT_EQ(monitor.agents_ready(), 0);
+  word();
   EXPECT_EQ(phase(0.6), "matching");
   agent(1, 0.7);
   agent(2, 0.7, false);
@@ -113,17 +123,54 @@ TEST_F(FlightMonitorTest, TurningBackHalfWayNeverFlew) {
 
 TEST_F(FlightMonitorTest, APlanOfItsOwnIsADeviation) {
   course.base.number = kMotion;
-  course.transitions = {go({1, 3}, 10.0, 4.0, 2)};
+  course.transitions = {go({7, 10}, 10.0, 4.0, 2)};
   everybody(9.5);
   EXPECT_EQ(phase(9.9), "flying");
   EXPECT_EQ(phase(10.1), "deviated");
   EXPECT_NE(complaint(10.1).find("plan of its own"), std::string::npos);
 }
 
+TEST_F(FlightMonitorTest, ARetuneIsADeviationThoughTheCoordinatorCallsItTheMotion) {
+  constexpr protocol::PlanNumber kRetuned{7, 11};
+  course.base.number = kMotion;
+  everybody(9.0);
+  word(kRetuned);
+  EXPECT_EQ(phase(9.5), "flying");
+  course.transitions = {go(kRetuned, 10.0, 4.0, 2)};
+  everybody(9.5);
+  EXPECT_EQ(phase(9.9), "flying");
+  EXPECT_EQ(phase(10.1), "deviated");
+}
+
+TEST_F(FlightMonitorTest, ACoordinatorThatTakesOverAndKnowsThePlansAgainChangesNothing) {
+  course.transitions = {go(kMotion, 2.0, 4.0)};
+  everybody(5.0);
+  word(kMotion, 8);
+  everybody(7.0);
+  EXPECT_EQ(phase(7.0), "flying");
+  EXPECT_NEAR(seconds(monitor.flown(local(16.0))), 10.0, 1e-9);
+}
+
+TEST_F(FlightMonitorTest, WhatIsUnderWayIsKnownWhenTheCoordinatorHasTold) {
+  course.transitions = {go(kMotion, 2.0, 4.0)};
+  beacon(1.5);
+  monitor.see(protocol::CarrierState{}, local(1.5));
+  EXPECT_EQ(phase(3.0), "starting");
+  EXPECT_FALSE(monitor.under_way(local(3.0)));
+  word();
+  EXPECT_EQ(phase(1.6), "matching");
+  EXPECT_TRUE(monitor.under_way(local(3.0)));
+  beacon(3.1);
+  EXPECT_EQ(phase(3.1), "engaging");
+  EXPECT_NEAR(seconds(monitor.flown(local(16.0))), 10.0, 1e-9);
+}
+
 TEST_F(FlightMonitorTest, NamesWhoDidNotComeUp) {
   EXPECT_EQ(complaint(19.0), "none");
   EXPECT_EQ(complaint(21.0), "the coordinator was not heard within 20 s");
   beacon(21.0);
+  EXPECT_EQ(complaint(21.0), "the coordinator did not tell which plan is which within 20 s");
+  word();
   EXPECT_EQ(complaint(21.0), "the simulator was not heard within 20 s");
   monitor.see(protocol::CarrierState{}, local(21.0));
   EXPECT_EQ(complaint(21.0), "none");

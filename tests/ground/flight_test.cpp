@@ -21,6 +21,7 @@ namespace {
 using protocol::Stage;
 
 constexpr double kTransition_s = 10.0;
+constexpr protocol::PlanNumber kRest{7, 9}, kMotion{5, 2};  // whatever they are called
 
 mission::Mission paper() {
   const auto mission = mission::read_mission_file(std::string(GYRE_SOURCE_DIR) + "/deploy/missions/paper.textproto");
@@ -36,8 +37,8 @@ SwarmTime at(double time_s) {
 protocol::Course engaging() {
   protocol::Course course;
   course.revision = 3;
-  course.base = {{1, kRestRevision}, at(0.0)};
-  course.transitions = {{1, {{1, kMotionRevision}, at(5.0)}, at(5.0), from_seconds(kTransition_s), Stage::kGo}};
+  course.base = {kRest, at(0.0)};
+  course.transitions = {{1, {kMotion, at(5.0)}, at(5.0), from_seconds(kTransition_s), Stage::kGo}};
   return course;
 }
 
@@ -49,7 +50,17 @@ class PerfectFlight {
         rest_(mechanics::slices(mechanics::rest_plan(mission.plan))),
         motion_(mechanics::slices(mission.plan)),
         certificate(mission.plan),
-        record(mission.plan) {}
+        record(mission.plan) {
+    certificate.see(word(kMotion));
+  }
+
+  /// The coordinator's, while the mission in force has this motion.
+  static protocol::CoordinatorStatus word(const protocol::PlanNumber& motion) {
+    protocol::CoordinatorStatus status;
+    status.rest = kRest;
+    status.motion = motion;
+    return status;
+  }
 
   void fly(const protocol::Course& course, double begin_s, double end_s) {
     certificate.include(course);
@@ -61,7 +72,7 @@ class PerfectFlight {
 
   [[nodiscard]] protocol::CarrierState state(const protocol::Course& course, std::size_t i, double t) const {
     const auto layers = protocol::layers(course, SwarmTime{}, [&](const protocol::PlanNumber& number) {
-      return number.revision == kRestRevision ? &rest_[i] : &motion_[i];
+      return number == kRest ? &rest_[i] : &motion_[i];
     });
     const mechanics::Reference r = mechanics::evaluate_course(layers.data(), layers.size(), t);
     protocol::CarrierState state;
@@ -88,7 +99,7 @@ class PerfectFlight {
   static bool settled(const protocol::Course& course, double t) {
     protocol::Course now = course;
     protocol::settle(now, at(t));
-    return now.base.number.revision == kMotionRevision && !protocol::in_transition(now, at(t));
+    return now.base.number == kMotion && !protocol::in_transition(now, at(t));
   }
 
   const mission::Mission& mission_;
@@ -160,7 +171,7 @@ TEST_F(FlightTest, ATransitionIsJudgedToo) {
 
 TEST_F(FlightTest, AReleaseHalfWayThroughTheEngagementIsEnclosed) {
   protocol::Course course = engaging();
-  course.transitions.push_back({2, {{1, kRestRevision}, at(0.0)}, at(10.0), from_seconds(kTransition_s), Stage::kGo});
+  course.transitions.push_back({2, {kRest, at(0.0)}, at(10.0), from_seconds(kTransition_s), Stage::kGo});
   PerfectFlight other(mission);
   other.fly(engaging(), 0.0, 10.0);
   other.fly(course, 10.0, 25.0);
@@ -177,6 +188,7 @@ TEST_F(FlightTest, TheTransitionWidensTheHullOnlyWhereItIsGo) {
     return certificate.bounds()[0].whole.length_m.span();
   };
   FlightCertificate without(mission.plan);
+  without.see(PerfectFlight::word(kMotion));
   protocol::Course proposed = engaging();
   proposed.transitions[0].stage = Stage::kProposed;
   without.include(proposed);
@@ -189,6 +201,28 @@ TEST_F(FlightTest, APlanOfNobodysMissionCannotBeJudged) {
   frozen.transitions[0].to.number.revision = 3;
   flight.certificate.include(frozen);
   EXPECT_EQ(violations().find("the swarm went to a plan that is not of this mission"), 0U);
+}
+
+TEST_F(FlightTest, AnothersMotionCannotBeJudgedWhateverTheCoordinatorCallsIt) {
+  constexpr protocol::PlanNumber kRetuned{7, 11};
+  flight.certificate.see(PerfectFlight::word(kRetuned));
+  flight.certificate.include(engaging());
+  EXPECT_TRUE(flight.report().good()) << violations();
+  protocol::Course retuned = engaging();
+  retuned.transitions[0].to.number = kRetuned;
+  flight.certificate.include(retuned);
+  EXPECT_EQ(violations().find("the swarm went to a plan that is not of this mission"), 0U);
+}
+
+TEST_F(FlightTest, WhatIsFlownBeforeItIsKnownWhatItIsIsNotHeldAgainstTheFlight) {
+  FlightCertificate certificate(mission.plan);
+  const double motion_m = certificate.bounds()[0].whole.length_m.span();
+  certificate.include(engaging());
+  EXPECT_TRUE(certificate.knows_all_plans());
+  certificate.see(PerfectFlight::word(kMotion));
+  certificate.include(engaging());
+  EXPECT_TRUE(certificate.knows_all_plans());
+  EXPECT_GE(certificate.bounds()[0].whole.length_m.span(), motion_m);
 }
 
 TEST_F(FlightTest, TheLoadIsHeldToTheMissionsTolerance) {

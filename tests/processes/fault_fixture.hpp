@@ -73,7 +73,7 @@ inline void wait(double seconds) {
 class FaultTest : public ProgramsTest {
  protected:
   void SetUp() override {
-    // This program starts no thread before its first flight.
+    // Before its first flight this program has no thread that uses a network.
     static Result<PrivateNetwork> entered = PrivateNetwork::enter();
     if (!entered) GTEST_SKIP() << entered.error().text;
     network_.emplace(entered.value());

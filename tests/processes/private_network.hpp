@@ -16,8 +16,8 @@ namespace gyre::test {
 
 class PrivateNetwork {
  public:
-  /// For a process that has no other threads yet; it stays there for good. Fails without the right to do so or without
-  /// nftables; the error names the cure.
+  /// For a process whose other threads use no network; this thread, and what it starts, stays there for good. Fails
+  /// without the right to do so or without nftables; the error names the cure.
   [[nodiscard]] static Result<PrivateNetwork> enter();
 
   /// From now on drops `percent` of the UDP packets that neither come from nor go to one of the `spared` ports.

@@ -1,13 +1,12 @@
 // gyre-agent --carrier N: one carrier's process. All decisions are in core/.
 
-#include <spdlog/spdlog.h>
-
 #include <memory>
 
 #include "agent/core/agent.hpp"
 #include "agent/vehicle/vehicle_options.hpp"
 #include "common/base/interrupts.hpp"
 #include "common/base/log.hpp"
+#include "common/base/text.hpp"
 #include "common/dds/health_reporter.hpp"
 #include "common/dds/inbox.hpp"
 #include "common/program/program.hpp"
@@ -67,11 +66,12 @@ class Wire {
   gyre::dds::Writer<protocol::HeldPlans> held_;
 };
 
-int run(const gyre::agent::AgentOptions& options, const gyre::dds::NetworkOptions& network) {
+int run(const gyre::agent::AgentOptions& options, const program::NetworkOptions& network) {
   auto node = program::open_node(network, {std::nullopt, options.carrier});
   if (!node) return node.error();
   Agent agent(options);
-  spdlog::info("carrier {}: waiting for a coordinator on domain {}", options.carrier, node.value()->domain());
+  gyre::log_info(
+      gyre::text("carrier %u: waiting for a coordinator on domain %d", options.carrier, node.value()->domain()));
   Wire wire(std::move(node).value(), options.carrier);
 
   LocalTime next_tick = gyre::dds::now();
@@ -87,7 +87,7 @@ int run(const gyre::agent::AgentOptions& options, const gyre::dds::NetworkOption
     step(gyre::agent::Tick{});
     wire.report_health(agent);
   }
-  spdlog::info("carrier {}: ended on request", options.carrier);
+  gyre::log_info(gyre::text("carrier %u: ended on request", options.carrier));
   return program::kGood;
 }
 
@@ -95,19 +95,22 @@ int run(const gyre::agent::AgentOptions& options, const gyre::dds::NetworkOption
 
 int main(int argc, char** argv) {
   gyre::block_interrupts();
-  CLI::App app{"Flies one carrier: keeps swarm time, evaluates its own setpoint, refuses what it cannot fly.",
-               "gyre-agent"};
   gyre::agent::AgentOptions options;
   program::Options common;
-  app.add_option("--carrier", options.carrier, "this carrier's id in the mission, 1 to 100")
-      ->required()
-      ->check(CLI::Range(gyre::CarrierId{1}, gyre::kMaxCarrierId))
-      ->envname("GYRE_CARRIER");
-  gyre::agent::add_vehicle_options(app, options.vehicle);
-  program::add_options(app, common);
-  if (const auto answer = program::parse(app, argc, argv)) return *answer;
-  if (const auto answer = program::start("gyre-agent " + std::to_string(options.carrier), common)) return *answer;
-  // The moment of the start tells one life of this agent from the next.
-  options.incarnation = static_cast<std::uint64_t>(gyre::dds::now().time_since_epoch().count());
-  return run(options, common.network);
+  std::vector<program::OptionGroup> groups =
+      program::with_common({{"--carrier", &options.carrier, "this carrier's id in the mission",
+                             program::Bounds{1, gyre::kMaxCarrierId}, program::Take::kRequired}},
+                           common);
+  groups.push_back(gyre::agent::vehicle_options(options.vehicle));
+  const auto fly = [&]() -> int {
+    if (const auto answer = program::start("gyre-agent " + std::to_string(options.carrier), common)) return *answer;
+    // The moment of the start tells one life of this agent from the next.
+    options.incarnation = static_cast<std::uint64_t>(gyre::dds::now().time_since_epoch().count());
+    return run(options, common.network);
+  };
+  return program::run(
+      program::Command{"gyre-agent",
+                       "Flies one carrier: keeps swarm time, evaluates its own setpoint, refuses what it cannot fly.",
+                       std::move(groups), fly},
+      argc, argv);
 }

@@ -8,12 +8,13 @@ if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   target_compile_options(gyre_house INTERFACE -Wno-maybe-uninitialized)
 endif()
 
-# gyre_library(NAME SOURCES... USES...): a static library of our own code; USES are its public dependencies.
+# gyre_library(NAME SOURCES... [USES...] [PRIVATELY...]): a static library of our own code. USES are its public
+# dependencies; what it uses PRIVATELY its headers do not mention.
 function(gyre_library name)
-  cmake_parse_arguments(arg "" "" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;USES;PRIVATELY" ${ARGN})
   if(arg_SOURCES)
     add_library(${name} STATIC ${arg_SOURCES})
-    target_link_libraries(${name} PUBLIC ${arg_USES} PRIVATE $<BUILD_INTERFACE:gyre_house>)
+    target_link_libraries(${name} PUBLIC ${arg_USES} PRIVATE ${arg_PRIVATELY} $<BUILD_INTERFACE:gyre_house>)
     target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>)
     target_compile_features(${name} PUBLIC cxx_std_17)
   else()

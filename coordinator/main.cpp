@@ -1,18 +1,17 @@
 // gyre-coordinator MISSION: certifies the mission, beacons the phase, agrees transitions. All decisions are in core/.
 
-#include <spdlog/spdlog.h>
-
-#include <cstdio>
 #include <map>
 #include <memory>
 #include <random>
 
 #include "common/base/interrupts.hpp"
 #include "common/base/log.hpp"
+#include "common/base/text.hpp"
 #include "common/dds/health_reporter.hpp"
 #include "common/dds/inbox.hpp"
 #include "common/mechanics/certificate.hpp"
 #include "common/mission/mission.hpp"
+#include "common/program/mission_argument.hpp"
 #include "common/program/program.hpp"
 #include "coordinator/core/coordinator.hpp"
 
@@ -128,15 +127,12 @@ Outcome conduct(Coordinator& coordinator, Wire& wire) {
   return *finished;
 }
 
-int run(const std::string& path, const gyre::dds::NetworkOptions& network, bool engage) {
-  const auto mission = gyre::mission::read_mission_file(path);
-  if (!mission) {
-    std::fprintf(stderr, "%s\n", mission.error().text.c_str());
-    return program::kBadUsage;
-  }
+int run(const std::string& path, const program::NetworkOptions& network, bool engage) {
+  const auto mission = program::read_mission(path);
+  if (!mission) return mission.error();
   const gyre::mechanics::Certificate certificate = gyre::mechanics::certify(mission.value().plan);
   for (const gyre::mechanics::Reason& reason : certificate.reasons) {
-    spdlog::error("refused: {}: {}", name(reason.rule), reason.text);
+    gyre::log_error(gyre::text("refused: %s: %s", name(reason.rule), reason.text.c_str()));
   }
   if (!certificate.admissible()) return program::kFailed;
 
@@ -149,7 +145,7 @@ int run(const std::string& path, const gyre::dds::NetworkOptions& network, bool 
   Coordinator coordinator(job_of(mission.value()), coordinator_options);
   Wire wire(std::move(node).value(), mission.value().plan);
   const Outcome outcome = conduct(coordinator, wire);
-  spdlog::log(outcome.clean ? spdlog::level::info : spdlog::level::err, "{}", outcome.text);
+  gyre::log(outcome.clean ? gyre::Notice::Level::kInfo : gyre::Notice::Level::kError, outcome.text);
   return outcome.clean ? program::kGood : program::kFailed;
 }
 
@@ -157,15 +153,19 @@ int run(const std::string& path, const gyre::dds::NetworkOptions& network, bool 
 
 int main(int argc, char** argv) {
   gyre::block_interrupts();
-  CLI::App app{"Owns the mission: certifies it, keeps swarm time, beacons the phase, agrees transitions.",
-               "gyre-coordinator"};
   std::string mission;
   bool engage = false;
   program::Options options;
-  program::add_mission(app, mission);
-  app.add_flag("--engage", engage, "start the motion as soon as every agent is ready")->envname("GYRE_ENGAGE");
-  program::add_options(app, options);
-  if (const auto answer = program::parse(app, argc, argv)) return *answer;
-  if (const auto answer = program::start("gyre-coordinator", options)) return *answer;
-  return run(mission, options.network, engage);
+  const auto conduct = [&]() -> int {
+    if (const auto answer = program::start("gyre-coordinator", options)) return *answer;
+    return run(mission, options.network, engage);
+  };
+  return program::run(
+      program::Command{"gyre-coordinator",
+                       "Owns the mission: certifies it, keeps swarm time, beacons the phase, agrees transitions.",
+                       program::with_common({program::mission_argument(mission),
+                                             {"--engage", &engage, "start the motion as soon as every agent is ready"}},
+                                            options),
+                       conduct},
+      argc, argv);
 }

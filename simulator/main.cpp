@@ -1,16 +1,15 @@
 // gyre-simulator MISSION: stands where the vehicles and the load would stand. The motion is in core/; this performs.
 
-#include <spdlog/spdlog.h>
-
-#include <cstdio>
+#include <cinttypes>
 #include <memory>
 #include <vector>
 
 #include "common/base/interrupts.hpp"
 #include "common/base/log.hpp"
+#include "common/base/text.hpp"
 #include "common/dds/health_reporter.hpp"
 #include "common/dds/inbox.hpp"
-#include "common/mission/mission.hpp"
+#include "common/program/mission_argument.hpp"
 #include "common/program/program.hpp"
 #include "simulator/core/simulator.hpp"
 
@@ -85,17 +84,17 @@ SimulationSettings settings_of(const gyre::mission::Mission& mission) {
 void report(const Outputs& out) {
   gyre::log(out.notices);
   if (out.lag) {
-    spdlog::warn("cannot keep real time: {:.3f} s behind{}", gyre::seconds(out.lag->behind),
-                 out.lag->skipped > gyre::Duration{}
-                     ? fmt::format("; {:.3f} s are skipped, the world stood still", gyre::seconds(out.lag->skipped))
-                     : "");
+    const double skipped_s = gyre::seconds(out.lag->skipped);
+    gyre::log_warning(gyre::text("cannot keep real time: %.3f s behind", gyre::seconds(out.lag->behind)) +
+                      (skipped_s > 0.0 ? gyre::text("; %.3f s are skipped, the world stood still", skipped_s) : ""));
   }
   if (out.dropped) {
     const protocol::DropCounts& counts = out.dropped->counts;
-    spdlog::warn("setpoints dropped so far: {} nonsense, {} late, {} twice; the latest: {}", counts.nonsense,
-                 counts.late, counts.duplicate, out.dropped->latest);
+    gyre::log_warning(gyre::text("setpoints dropped so far: %" PRIu64 " nonsense, %" PRIu64 " late, %" PRIu64
+                                 " twice; the latest: %s",
+                                 counts.nonsense, counts.late, counts.duplicate, out.dropped->latest.c_str()));
   }
-  if (out.failure) spdlog::error("{}; the load is held still meanwhile", out.failure->text);
+  if (out.failure) gyre::log_error(out.failure->text + "; the load is held still meanwhile");
 }
 
 void simulate(Simulator& simulator, Wire& wire) {
@@ -112,25 +111,23 @@ void simulate(Simulator& simulator, Wire& wire) {
   }
 }
 
-int run(const std::string& path, const gyre::dds::NetworkOptions& network) {
-  const auto mission = gyre::mission::read_mission_file(path);
-  if (!mission) {
-    std::fprintf(stderr, "%s\n", mission.error().text.c_str());
-    return program::kBadUsage;
-  }
+int run(const std::string& path, const program::NetworkOptions& network) {
+  const auto mission = program::read_mission(path);
+  if (!mission) return mission.error();
   auto node = program::open_node(network, {gyre::dds::Hub::kSimulator, std::nullopt});
   if (!node) return node.error();
   const gyre::mechanics::Plan& plan = mission.value().plan;
   Wire wire(std::move(node).value(), plan);
   auto simulator = Simulator::create(plan, settings_of(mission.value()), gyre::dds::now());
   if (!simulator) {
-    spdlog::error("{}", simulator.error().text);
+    gyre::log_error(simulator.error().text);
     return program::kFailed;
   }
-  spdlog::info("\"{}\": the load hangs at rest from {} carriers", mission.value().name, plan.carriers.size());
+  gyre::log_info(gyre::text("\"%s\": the load hangs at rest from %zu carriers", mission.value().name.c_str(),
+                            plan.carriers.size()));
   Simulator world = std::move(simulator).value();
   simulate(world, wire);
-  spdlog::info("interrupted; ended after {:.1f} s", gyre::seconds(world.simulated()));
+  gyre::log_info(gyre::text("interrupted; ended after %.1f s", gyre::seconds(world.simulated())));
   return program::kGood;
 }
 
@@ -138,13 +135,15 @@ int run(const std::string& path, const gyre::dds::NetworkOptions& network) {
 
 int main(int argc, char** argv) {
   gyre::block_interrupts();
-  CLI::App app{"Simulates the load, its cables, winches and carriers, which follow the agents' setpoints.",
-               "gyre-simulator"};
   std::string mission;
   program::Options options;
-  program::add_mission(app, mission);
-  program::add_options(app, options);
-  if (const auto answer = program::parse(app, argc, argv)) return *answer;
-  if (const auto answer = program::start("gyre-simulator", options)) return *answer;
-  return run(mission, options.network);
+  const auto simulate = [&]() -> int {
+    if (const auto answer = program::start("gyre-simulator", options)) return *answer;
+    return run(mission, options.network);
+  };
+  return program::run(
+      program::Command{"gyre-simulator",
+                       "Simulates the load, its cables, winches and carriers, which follow the agents' setpoints.",
+                       program::with_common({program::mission_argument(mission)}, options), simulate},
+      argc, argv);
 }

@@ -1,35 +1,44 @@
 #include "common/program/program.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <cstdio>
 #include <utility>
 
 #include "common/base/log.hpp"
+#include "common/base/text.hpp"
+#include "common/dds/clock.hpp"
+#include "common/dds/interface.hpp"
 
 namespace gyre::program {
 
-void add_options(CLI::App& app, Options& options) {
-  app.add_option("--log-level", options.log_level, "trace, debug, info, warning, error or off")
-      ->envname("GYRE_LOG_LEVEL")
-      ->capture_default_str();
-  dds::add_network_options(app, options.network);
-  dds::add_clock_options(app, options.clock);
+Option domain_option(std::optional<int>& domain, const std::string& otherwise) {
+  return {"--domain", &domain, "DDS domain, 0 to 100 (else ROS_DOMAIN_ID, else " + otherwise + ")"};
 }
 
-CLI::Option* add_mission(CLI::App& app, std::string& path) {
-  return app.add_option("MISSION", path, "mission file, Protobuf text format (idl/mission.proto)")
-      ->required()
-      ->envname("GYRE_MISSION");
+OptionGroup network_options(NetworkOptions& options, const std::string& otherwise) {
+  return {"Network",
+          {domain_option(options.domain, otherwise),
+           {"--interface", &options.interface, "network interface to use, by its name or IPv4 address"},
+           {"--peer", &options.peers, "IPv4 address of another machine to look for the swarm at; may be repeated"}}};
 }
 
-std::optional<ExitCode> parse(CLI::App& app, int argc, char** argv) {
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? kGood : kBadUsage;
-  }
-  return std::nullopt;
+OptionGroup laboratory_options(ClockOptions& options) {
+  return {"Laboratory",
+          {{"--clock-offset-s", &options.offset_s, "make this process's clock wrong by so many seconds",
+            Bounds{-dds::kMaxClockOffset_s, dds::kMaxClockOffset_s}},
+           {"--clock-drift-ppm", &options.drift_ppm, "make this process's clock run too fast by so many ppm",
+            Bounds{-dds::kMaxClockDrift_ppm, dds::kMaxClockDrift_ppm}}}};
+}
+
+std::vector<OptionGroup> with_common(std::vector<Option> own_options, Options& options) {
+  own_options.push_back({"--log-level", &options.log_level, "trace, debug, info, warning, error or off"});
+  return {own(std::move(own_options)), network_options(options.network), laboratory_options(options.clock)};
+}
+
+Notices apply(const ClockOptions& options) {
+  if (options.offset_s == 0.0 && options.drift_ppm == 0.0) return {};
+  dds::set_clock_error(from_seconds(options.offset_s), options.drift_ppm);
+  return {{Notice::Level::kWarning, text("laboratory: this process's clock is made wrong by %+g s and %+g ppm",
+                                         options.offset_s, options.drift_ppm)}};
 }
 
 std::optional<ExitCode> start(const std::string& name, const Options& options) {
@@ -37,19 +46,30 @@ std::optional<ExitCode> start(const std::string& name, const Options& options) {
     std::fprintf(stderr, "%s\n", started.error().text.c_str());
     return kBadUsage;
   }
-  log(dds::apply(options.clock));
+  log(apply(options.clock));
   return std::nullopt;
 }
 
-Result<std::unique_ptr<dds::Node>, ExitCode> open_node(const dds::NetworkOptions& network, const dds::Seat& seat) {
-  const auto options = dds::node_options(network, seat);
+Result<dds::NodeOptions> node_options(const NetworkOptions& options, const dds::Seat& seat) {
+  const Result<int> domain = dds::choose_domain(options.domain);
+  if (!domain) return domain.error();
+  for (const std::string& peer : options.peers) {
+    if (!dds::is_ipv4(peer)) {
+      return Error{"--peer (or GYRE_PEER) is \"" + peer + "\": give an IPv4 address such as 192.168.1.7"};
+    }
+  }
+  return dds::NodeOptions{seat, domain.value(), options.interface, options.peers};
+}
+
+Result<std::unique_ptr<dds::Node>, ExitCode> open_node(const NetworkOptions& network, const dds::Seat& seat) {
+  const auto options = node_options(network, seat);
   if (!options) {
-    spdlog::error("{}", options.error().text);
+    log_error(options.error().text);
     return kBadUsage;
   }
   auto node = dds::Node::open(options.value());
   if (!node) {
-    spdlog::error("{}", node.error().text);
+    log_error(node.error().text);
     return kFailed;
   }
   return std::move(node).value();

@@ -11,12 +11,12 @@
 
 #include "common/dds/inbox.hpp"
 #include "common/mission/mission.hpp"
-#include "ground/flight/flight_certificate.hpp"
+#include "ground/flight/core/flight_certificate.hpp"
+#include "ground/flight/core/flight_monitor.hpp"
+#include "ground/flight/core/flight_record.hpp"
+#include "ground/flight/core/flight_report.hpp"
 #include "ground/flight/flight_display.hpp"
-#include "ground/flight/flight_monitor.hpp"
 #include "ground/flight/flight_network.hpp"
-#include "ground/flight/flight_record.hpp"
-#include "ground/flight/flight_report.hpp"
 #include "ground/flight/supervisor.hpp"
 
 namespace gyre::ground {

@@ -1,7 +1,7 @@
 #pragma once
 // Progress on stderr: a bar that moves on a terminal, a line now and then elsewhere. The table has stdout to itself.
 
-#include "ground/flight/flight_progress.hpp"
+#include "ground/flight/core/flight_progress.hpp"
 
 namespace gyre::ground {
 

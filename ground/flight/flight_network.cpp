@@ -53,9 +53,9 @@ std::vector<std::string> FlightNetwork::arguments() const {
   return words;
 }
 
-Result<FlightNetwork, FlightNetworkError> open_flight_network(const dds::NetworkOptions& options,
+Result<FlightNetwork, FlightNetworkError> open_flight_network(const program::NetworkOptions& options,
                                                               const std::vector<CarrierId>& carriers) {
-  const Result<dds::NodeOptions> read = dds::node_options(options, {dds::Hub::kGround, std::nullopt});
+  const Result<dds::NodeOptions> read = program::node_options(options, {dds::Hub::kGround, std::nullopt});
   if (!read) return FlightNetworkError{read.error().text, true};
   const Result<std::string> interface = dds::interface_address(read.value().interface);
   if (!interface) return FlightNetworkError{"--interface (or GYRE_INTERFACE): " + interface.error().text, true};

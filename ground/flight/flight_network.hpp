@@ -11,8 +11,8 @@
 
 #include "common/base/ids.hpp"
 #include "common/base/result.hpp"
-#include "common/dds/network_options.hpp"
 #include "common/dds/node.hpp"
+#include "common/program/program.hpp"
 
 namespace gyre::ground {
 
@@ -32,7 +32,7 @@ struct FlightNetworkError {
 };
 
 /// On the domain the user told (--domain, GYRE_DOMAIN, ROS_DOMAIN_ID), else on the first free one.
-[[nodiscard]] Result<FlightNetwork, FlightNetworkError> open_flight_network(const dds::NetworkOptions& options,
+[[nodiscard]] Result<FlightNetwork, FlightNetworkError> open_flight_network(const program::NetworkOptions& options,
                                                                             const std::vector<CarrierId>& carriers);
 
 }  // namespace gyre::ground

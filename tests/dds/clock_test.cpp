@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "common/dds/clock_options.hpp"
+#include "common/dds/clock.hpp"
 #include "common/dds/inbox.hpp"
 
 namespace gyre {
@@ -100,47 +100,6 @@ TEST_F(ProcessClock, IsWhatAnInboxsDeadlineIsOn) {
     const LocalTime deadline = dds::now() + 2ms;
     EXPECT_TRUE(inbox.wait_until(deadline).empty());
     EXPECT_GE(dds::now(), deadline);
-  }
-}
-
-class ClockOptionsTest : public ProcessClock {
- protected:
-  void TearDown() override {
-    ProcessClock::TearDown();
-    for (const char* name : {"GYRE_CLOCK_OFFSET_S", "GYRE_CLOCK_DRIFT_PPM"}) ::unsetenv(name);
-  }
-
-  static dds::ClockOptions parse(std::vector<std::string> arguments) {
-    CLI::App app("test");
-    dds::ClockOptions options;
-    dds::add_clock_options(app, options);
-    std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // what CLI11 takes
-    app.parse(reversed);
-    return options;
-  }
-};
-
-TEST_F(ClockOptionsTest, LeaveTheClockAloneUnlessTold) {
-  EXPECT_TRUE(dds::apply(parse({})).empty());
-  EXPECT_EQ(dds::steady_time(LocalTime(7s)), Steady(7s));
-}
-
-TEST_F(ClockOptionsTest, MakeTheClockWrongAndSaySo) {
-  ::setenv("GYRE_CLOCK_DRIFT_PPM", "-150", 1);
-  const dds::ClockOptions options = parse({"--clock-offset-s", "-7200.5"});
-  EXPECT_EQ(options.offset_s, -7200.5);
-  EXPECT_EQ(options.drift_ppm, -150.0);
-  const Notices notices = dds::apply(options);
-  ASSERT_EQ(notices.size(), 1U);
-  EXPECT_EQ(notices.front().level, Notice::Level::kWarning);
-  EXPECT_NE(notices.front().text.find("-7200.5 s and -150 ppm"), std::string::npos) << notices.front().text;
-  EXPECT_LT(dds::now().time_since_epoch(), std::chrono::steady_clock::now().time_since_epoch() - 7200s);
-}
-
-TEST_F(ClockOptionsTest, RefuseWhatNoClockCanBeWrongBy) {
-  for (const char* wrong : {"nan", "inf", "-inf", "1e7", "-1e7", "much", ""}) {
-    EXPECT_THROW(parse({"--clock-offset-s", wrong}), CLI::ParseError) << wrong;
-    EXPECT_THROW(parse({"--clock-drift-ppm", wrong}), CLI::ParseError) << wrong;
   }
 }
 

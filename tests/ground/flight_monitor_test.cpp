@@ -1,6 +1,6 @@
 // How far a flight has come, told by messages and a clock that is an argument; and who is missing.
 
-#include "ground/flight/flight_monitor.hpp"
+#include "ground/flight/core/flight_monitor.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,11 +9,11 @@
 #include "common/mechanics/transition.hpp"
 #include "common/mission/mission.hpp"
 #include "common/protocol/course.hpp"
-#include "ground/flight/flight_certificate.hpp"
-#include "ground/flight/flight_progress.hpp"
-#include "ground/flight/flight_record.hpp"
-#include "ground/flight/flight_report.hpp"
-#include "ground/flight/flight_table.hpp"
+#include "ground/flight/core/flight_certificate.hpp"
+#include "ground/flight/core/flight_progress.hpp"
+#include "ground/flight/core/flight_record.hpp"
+#include "ground/flight/core/flight_report.hpp"
+#include "ground/flight/core/flight_table.hpp"
 
 namespace gyre::ground {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "common/mechanics/reference.hpp"
 #include "common/mission/mission.hpp"
-#include "ground/certificate_json.hpp"
-#include "ground/certificate_table.hpp"
-#include "ground/motion_csv.hpp"
+#include "ground/check/certificate_json.hpp"
+#include "ground/check/certificate_table.hpp"
+#include "ground/check/motion_csv.hpp"
 
 namespace gyre::test {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "ground/watch/account_text.hpp"
-#include "ground/watch/swarm_watch.hpp"
+#include "ground/swarm/account_text.hpp"
+#include "ground/swarm/core/swarm_watch.hpp"
 
 namespace gyre::ground {
 namespace {

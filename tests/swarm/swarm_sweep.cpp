@@ -1,10 +1,10 @@
 // swarm_sweep --flights N --first-seed S: flights by the million. swarm_sweep --seed S: one flight, told.
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <ctime>
 #include <map>
 
+#include "common/program/command_line.hpp"
 #include "tests/swarm/flight.hpp"
 
 namespace {
@@ -75,15 +75,18 @@ int sweep(std::uint64_t first, std::uint64_t flights, int shown) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Flies whole swarms on virtual time with faults drawn from seeds, and judges them.", "swarm_sweep"};
+  namespace program = gyre::program;
   std::optional<std::uint64_t> seed;
   std::uint64_t first = 1;
   std::uint64_t flights = 1000;
   int shown = 5;
-  app.add_option("--seed", seed, "fly this one and tell what happens");
-  app.add_option("--first-seed", first)->capture_default_str();
-  app.add_option("--flights", flights)->capture_default_str();
-  app.add_option("--shown", shown, "findings of one kind that are printed")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  return seed ? replay(*seed) : sweep(first, flights, shown);
+  return program::run(
+      program::Command{"swarm_sweep",
+                       "Flies whole swarms on virtual time with faults drawn from seeds, and judges them.",
+                       {program::own({{"--seed", &seed, "fly this one and tell what happens"},
+                                      {"--first-seed", &first, "the first of many"},
+                                      {"--flights", &flights, "how many"},
+                                      {"--shown", &shown, "findings of one kind that are printed"}})},
+                       [&] { return seed ? replay(*seed) : sweep(first, flights, shown); }},
+      argc, argv);
 }

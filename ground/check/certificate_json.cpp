@@ -1,0 +1,71 @@
+#include "ground/check/certificate_json.hpp"
+
+#include <cmath>
+#include <optional>
+
+namespace gyre::ground {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json figure(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json figure(const std::optional<double>& value) {
+  return value ? figure(*value) : Json(nullptr);
+}
+
+Json reasons_json(const std::vector<mechanics::Reason>& reasons) {
+  Json out = Json::array();
+  for (const mechanics::Reason& reason : reasons) {
+    out.push_back({{"rule", mechanics::name(reason.rule)},
+                   {"carrier", reason.carrier ? Json(*reason.carrier) : Json(nullptr)},
+                   {"text", reason.text}});
+  }
+  return out;
+}
+
+Json carrier_json(const mechanics::CarrierFigures& carrier) {
+  return {{"id", carrier.id},
+          {"tension_min_n", figure(carrier.tension_n.min)},
+          {"tension_max_n", figure(carrier.tension_n.max)},
+          {"length_min_m", figure(carrier.length_m.min)},
+          {"length_max_m", figure(carrier.length_m.max)},
+          {"winch_rate_max_m_s", figure(carrier.winch_rate_max_m_s())},
+          {"speed_min_m_s", figure(carrier.speed_m_s.min)},
+          {"speed_max_m_s", figure(carrier.speed_m_s.max)},
+          {"acceleration_max_m_s2", figure(carrier.acceleration_max_m_s2)},
+          {"altitude_min_m", figure(carrier.altitude_m.min)},
+          {"altitude_max_m", figure(carrier.altitude_m.max)},
+          {"altitude_swing_m", figure(carrier.altitude_m.span())},
+          {"vertical_cosine_min", figure(carrier.vertical_cosine.min)},
+          {"vertical_cosine_max", figure(carrier.vertical_cosine.max)},
+          {"direction_cosine_min", figure(carrier.direction_cosine_min)}};
+}
+
+}  // namespace
+
+Json certificate_json(const std::string& mission_name, const mechanics::Certificate& certificate) {
+  Json carriers = Json::array();
+  for (const mechanics::CarrierFigures& carrier : certificate.carriers) carriers.push_back(carrier_json(carrier));
+
+  const mechanics::Separation& separation = certificate.separation;
+  const bool pair = std::isfinite(separation.min_m);
+  return {{"name", mission_name},
+          {"verdict", certificate.admissible() ? "admissible" : "refused"},
+          {"reasons", reasons_json(certificate.reasons)},
+          {"cautions", reasons_json(certificate.cautions)},
+          {"period_s", figure(certificate.period_s)},
+          {"wrench_error_max_n", figure(certificate.wrench_error_max_n)},
+          {"skew_budget_s", figure(certificate.skew.budget_s)},
+          {"skew_residual_n_per_s", figure(certificate.skew.residual_n_per_s)},
+          {"skew_displacement_m_per_s", figure(certificate.skew.displacement_m_per_s)},
+          {"holdover_s", figure(certificate.skew.holdover_s)},
+          {"carrier_separation_min_m", figure(separation.min_m)},
+          {"carrier_separation_pair", pair ? Json{separation.first, separation.second} : Json(nullptr)},
+          {"stiffness_min_1_s2", figure(certificate.stiffness_min_1_s2)},
+          {"carriers", carriers}};
+}
+
+}  // namespace gyre::ground

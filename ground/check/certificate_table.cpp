@@ -1,0 +1,137 @@
+#include "ground/check/certificate_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+#include "common/base/text.hpp"
+#include "ground/text_table.hpp"
+
+namespace gyre::ground {
+namespace {
+
+using mechanics::CarrierFigures;
+using mechanics::Certificate;
+using mechanics::Limits;
+using mechanics::Range;
+using Limit = std::optional<double>;
+
+constexpr std::size_t kTextWidth = 100;
+
+std::string limit(const Limit& min, const Limit& max) {
+  if (min && max) return number_text(*min) + " .. " + number_text(*max);
+  if (min) return ">= " + number_text(*min);
+  if (max) return "<= " + number_text(*max);
+  return "-";
+}
+
+std::string marked(const std::string& figure, bool broken) {
+  return broken ? figure + " !" : figure;
+}
+
+std::string judged(const Range& figure, const Limit& min, const Limit& max) {
+  return marked(range_text(figure), (min && !(figure.min >= *min)) || (max && !(figure.max <= *max)));
+}
+
+std::string judged_max(double figure, const Limit& max) {
+  return marked(number_text(figure), max && !(figure <= *max));
+}
+
+/// |q_z| keeps its sign in any motion that is allowed.
+double least_vertical_cosine(const CarrierFigures& figures) {
+  return std::max(0.0, std::max(figures.vertical_cosine.min, -figures.vertical_cosine.max));
+}
+
+using Row = std::vector<std::string>;
+
+std::vector<Row> rows(const Limits& limits, const Certificate& certificate) {
+  std::vector<Row> out;
+  out.push_back({"", "tension", "length", "winch rate", "speed", "acceleration", "altitude", "|q_z|"});
+  out.push_back({"", "N", "m", "m/s", "m/s", "m/s^2", "m", ""});
+  out.push_back({"limit", limit(limits.tension_min_n, limits.tension_max_n),
+                 limit(limits.length_min_m, limits.length_max_m), limit({}, limits.winch_rate_max_m_s),
+                 limit(limits.speed_min_m_s, limits.speed_max_m_s), limit({}, limits.acceleration_max_m_s2), "-",
+                 limit(limits.vertical_cosine_min, {})});
+  for (const CarrierFigures& figures : certificate.carriers) {
+    const double cosine = least_vertical_cosine(figures);
+    out.push_back(
+        {"carrier " + std::to_string(figures.id), judged(figures.tension_n, limits.tension_min_n, limits.tension_max_n),
+         judged(figures.length_m, limits.length_min_m, limits.length_max_m),
+         judged_max(figures.winch_rate_max_m_s(), limits.winch_rate_max_m_s),
+         judged(figures.speed_m_s, limits.speed_min_m_s, limits.speed_max_m_s),
+         judged_max(figures.acceleration_max_m_s2, limits.acceleration_max_m_s2), range_text(figures.altitude_m),
+         marked(number_text(cosine), limits.vertical_cosine_min && cosine < *limits.vertical_cosine_min)});
+  }
+  return out;
+}
+
+/// Words filled into lines, every line after the first behind `indent`.
+std::string filled(const std::string& words, const std::string& indent) {
+  std::istringstream stream(words);
+  std::string out;
+  std::size_t column = indent.size();
+  for (std::string word; stream >> word;) {
+    if (!out.empty() && column + 1 + word.size() > kTextWidth) {
+      out += "\n" + indent;
+      column = indent.size();
+    } else if (!out.empty()) {
+      out += " ";
+      ++column;
+    }
+    out += word;
+    column += word.size();
+  }
+  return out;
+}
+
+std::string listed(const std::vector<mechanics::Reason>& reasons) {
+  std::string out;
+  for (const mechanics::Reason& reason : reasons) {
+    out += "  - " + filled(std::string(mechanics::name(reason.rule)) + ": " + reason.text, "    ") + "\n";
+  }
+  return out;
+}
+
+std::string separation_line(const Limits& limits, const Certificate& certificate) {
+  const mechanics::Separation& separation = certificate.separation;
+  if (!std::isfinite(separation.min_m)) return "-";
+  std::string line =
+      number_text(separation.min_m) + text(" m, carriers %u and %u", separation.first, separation.second);
+  if (!limits.separation_min_m) return line;
+  line += " (limit >= " + number_text(*limits.separation_min_m) + ")";
+  return marked(line, separation.min_m < *limits.separation_min_m);
+}
+
+std::string skew_line(const mechanics::SkewBudget& skew) {
+  if (!std::isfinite(skew.budget_s)) return "of any size";
+  return "up to " + number_text(1e3 * skew.budget_s) + " ms keep the residual under " +
+         text("%.0f %%", 100.0 * mechanics::kSkewShare) + " of the weight; " + number_text(skew.residual_n_per_s) +
+         " N and " + number_text(1e3 * skew.displacement_m_per_s) + " mm per second of it\n" + "  holdover           " +
+         number_text(skew.holdover_s) + " s with clocks " + text("%.0f", 1e6 * mechanics::kHoldoverDrift) +
+         " ppm apart";
+}
+
+}  // namespace
+
+std::string certificate_table(const std::string& mission_name, const Limits& limits, const Certificate& certificate) {
+  const std::size_t broken = certificate.reasons.size();
+  std::string out = mission_name + ": ";
+  out += certificate.admissible()
+             ? std::string("admissible")
+             : "REFUSED, " + std::to_string(broken) + (broken == 1 ? " rule" : " rules") + " broken";
+  out += "\n\n";
+  out += aligned(rows(limits, certificate));
+  out += "\n";
+  out += "  period             " + number_text(certificate.period_s) + " s\n";
+  out += "  separation         " + separation_line(limits, certificate) + "\n";
+  out += "  wrench error       " + text("%.2g", certificate.wrench_error_max_n) + " N at most\n";
+  out += "  load stiffness     " + number_text(certificate.stiffness_min_1_s2) + " 1/s^2 at its softest\n";
+  out += "  clock skew         " + skew_line(certificate.skew) + "\n";
+  if (!certificate.admissible()) out += "\nWhy, and what would cure it:\n" + listed(certificate.reasons);
+  if (!certificate.cautions.empty()) out += "\nNot forbidden, but look at it:\n" + listed(certificate.cautions);
+  return out;
+}
+
+}  // namespace gyre::ground

@@ -1,0 +1,119 @@
+#include "ground/flight/fly.hpp"
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "common/base/interrupts.hpp"
+#include "common/mechanics/certificate.hpp"
+#include "common/program/mission_argument.hpp"
+#include "common/program/program.hpp"
+#include "ground/check/certificate_table.hpp"
+#include "ground/flight/core/flight_table.hpp"
+#include "ground/flight/flight.hpp"
+#include "ground/flight/flight_directory.hpp"
+#include "ground/flight/flight_programs.hpp"
+
+namespace gyre::ground {
+namespace {
+
+struct FlyOptions {
+  std::string mission;
+  std::optional<double> duration_s;
+  std::optional<std::string> logs;
+  bool keep_logs = false;
+  program::NetworkOptions network;
+};
+
+int say(int exit_code, const std::string& text) {
+  std::fprintf(stderr, "%s\n", text.c_str());
+  return exit_code;
+}
+
+std::vector<CarrierId> carrier_ids(const mission::Mission& mission) {
+  std::vector<CarrierId> ids;
+  for (const mechanics::Carrier& carrier : mission.plan.carriers) ids.push_back(carrier.id);
+  return ids;
+}
+
+int report_failure(const FlightFailure& failure, const Supervisor& supervisor, FlightDirectory& directory) {
+  directory.keep();
+  std::string text = "The flight failed: " + failure.text + ".";
+  if (failure.culprit) {
+    const std::string tail = supervisor.log_tail(*failure.culprit);
+    text += "\nThe end of " + supervisor.log_path(*failure.culprit) + ":\n" + (tail.empty() ? "(empty)\n" : tail);
+  }
+  return say(program::kFailed, text + "All logs: " + directory.path());
+}
+
+int conclude(const Flight& flight, FlightDirectory& directory) {
+  const std::optional<FlightReport> report = flight.report();
+  if (!report) return say(program::kGood, "Ended as asked, before the motion had begun: nothing to judge.");
+  std::printf("%s", flight_table(*report).c_str());
+  const bool written = std::fflush(stdout) == 0;
+  if (report->good()) return written ? program::kGood : program::kFailed;
+  directory.keep();
+  return say(program::kFailed, "All logs: " + directory.path());
+}
+
+int fly_certified(const FlyOptions& options, const mission::Mission& mission) {
+  block_interrupts();  // before the node starts its threads
+  const Result<std::string> home = own_directory();
+  if (!home) return say(program::kFailed, home.error().text);
+  Result<FlightNetwork, FlightNetworkError> network = open_flight_network(options.network, carrier_ids(mission));
+  if (!network) return say(network.error().bad_usage ? program::kBadUsage : program::kFailed, network.error().text);
+  const FlightNetwork& net = network.value();
+  const auto programs = flight_programs(home.value(), options.mission, carrier_ids(mission), net.arguments());
+  if (!programs) return say(program::kFailed, programs.error().text);
+  Result<FlightDirectory> made = FlightDirectory::make(options.logs);
+  if (!made) return say(program::kFailed, made.error().text);
+  FlightDirectory directory = std::move(made).value();
+  if (options.keep_logs) directory.keep();
+
+  const double duration_s = options.duration_s.value_or(mechanics::period_s(mission.plan));
+  std::fprintf(stderr, "Flying %s for %.1f s on domain %d, logs in %s\n", mission.name.c_str(), duration_s, net.domain,
+               directory.path().c_str());
+  FlightDisplay display;
+  Supervisor supervisor(directory.path());
+  Flight flight(mission, duration_s, *net.node, supervisor, display);
+  for (const Program& program : programs.value()) {
+    const Result<pid_t> started = supervisor.start(program);
+    if (!started) return report_failure({started.error().text, {}}, supervisor, directory);
+  }
+  const std::optional<FlightFailure> failure = flight.run();
+  display.finish();
+  for (const std::string& name : supervisor.stop()) {
+    say(program::kGood, name + " did not end when asked, and was killed.");
+  }
+  return failure ? report_failure(*failure, supervisor, directory) : conclude(flight, directory);
+}
+
+int fly(const FlyOptions& options) {
+  const auto mission = program::read_mission(options.mission);
+  if (!mission) return mission.error();
+  const mechanics::Certificate certificate = mechanics::certify(mission.value().plan);
+  if (!certificate.admissible()) {
+    std::printf("%s", certificate_table(mission.value().name, mission.value().plan.limits, certificate).c_str());
+    return program::kFailed;
+  }
+  return fly_certified(options, mission.value());
+}
+
+}  // namespace
+
+program::Command fly_command() {
+  const auto options = std::make_shared<FlyOptions>();
+  return {"fly",
+          "Fly a mission on this machine: coordinator, simulator and one agent per carrier, and a verdict.",
+          {program::own({program::mission_argument(options->mission),
+                         {"--duration", &options->duration_s, "seconds of full motion (else one period of the mission)",
+                          program::Bounds{0.1, 7.0 * 86400.0}},
+                         {"--logs", &options->logs, "directory for one log per process; kept (else a temporary one)"},
+                         {"--keep-logs", &options->keep_logs, "keep the logs of a good flight too"}}),
+           program::network_options(options->network, "the first that is free")},
+          [options] { return fly(*options); }};
+}
+
+}  // namespace gyre::ground

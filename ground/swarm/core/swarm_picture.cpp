@@ -1,0 +1,108 @@
+#include "ground/swarm/core/swarm_picture.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "common/base/text.hpp"
+#include "common/protocol/term.hpp"
+#include "ground/swarm/core/course_line.hpp"
+#include "ground/text_table.hpp"
+
+namespace gyre::ground {
+namespace {
+
+const char* name(protocol::AgentState state) {
+  switch (state) {
+    case protocol::AgentState::kWaiting:
+      return "waiting";
+    case protocol::AgentState::kReady:
+      return "ready";
+    case protocol::AgentState::kFlying:
+      return "flying";
+    case protocol::AgentState::kAlone:
+      return "alone";
+  }
+  return "unknown";
+}
+
+std::string count(std::uint64_t n) {
+  return std::to_string(n);
+}
+
+std::string dropped(const protocol::DropCounts& d) {
+  return count(d.late) + " / " + count(d.duplicate) + " / " + count(d.wrong_term) + " / " + count(d.nonsense);
+}
+
+std::string milliseconds(Duration d) {
+  return d > std::chrono::hours(1) ? "-" : number_text(1e3 * seconds(d));
+}
+
+}  // namespace
+
+void SwarmPicture::see(const protocol::LoadState& load) {
+  load_ = load;
+}
+
+bool SwarmPicture::complete() const {
+  if (!coordinator_ || !beacon_ || !load_) return false;
+  const auto& silent = coordinator_->silent;
+  return std::all_of(coordinator_->carriers.begin(), coordinator_->carriers.end(), [&](CarrierId id) {
+    return agents_.count(id) > 0 || std::find(silent.begin(), silent.end(), id) != silent.end();
+  });
+}
+
+std::string SwarmPicture::load_line() const {
+  if (!load_) return "nobody tells where it is";
+  return text("at (%.4f, %.4f, %.4f) m, moving at %.2g m/s", load_->position_w_m.x(), load_->position_w_m.y(),
+              load_->position_w_m.z(), load_->velocity_w_m_s.norm());
+}
+
+std::string SwarmPicture::clock_line() const {
+  const auto& c = *coordinator_;
+  const std::string disagree = "may disagree by " + milliseconds(c.skew) + " ms";
+  if (c.skew_budget == Duration::zero()) return disagree + "; the plan in force allows any";
+  return disagree + text(", %.2g %% of the %.3g ms the plan in force allows",
+                         100.0 * seconds(c.skew) / seconds(c.skew_budget), 1e3 * seconds(c.skew_budget));
+}
+
+std::string SwarmPicture::table() const {
+  if (!coordinator_) return "no coordinator\n";
+  const protocol::CoordinatorStatus& c = *coordinator_;
+  std::string out = text("%s: term %llu, swarm time %.1f s\n", c.mission.c_str(), protocol::generation(c.term),
+                         seconds(c.swarm_time.time_since_epoch()));
+  out += "  course   " + (beacon_ ? course_line(*beacon_, coordinator_) : "no beacon heard") + "\n";
+  out += "  load     " + load_line() + "\n";
+  out += "  clocks   " + clock_line() + "\n";
+  out += "  latest   " + c.news + "\n\n";
+
+  std::vector<std::vector<std::string>> rows{
+      {"carrier", "state", "plan", "clock uncertain", "drift", "beacons missed", "dropped"},
+      {"", "", "", "ms", "ppm", "", "late / twice / old term / nonsense"}};
+  for (const CarrierId id : c.carriers) {
+    const auto agent = agents_.find(id);
+    const bool silent = std::find(c.silent.begin(), c.silent.end(), id) != c.silent.end();
+    if (agent == agents_.end()) {
+      rows.push_back({count(id), silent ? "SILENT" : "not heard", "-", "-", "-", "-", "-"});
+      continue;
+    }
+    const protocol::AgentStatus& s = agent->second;
+    rows.push_back({count(id), silent ? "SILENT" : name(s.state), plan_name(s.course.base.number, coordinator_),
+                    milliseconds(s.clock_uncertainty), text("%+.2f", s.clock_drift_ppm),
+                    count(s.beacons_missed) + " of " + count(s.beacons_received + s.beacons_missed),
+                    dropped(s.dropped)});
+  }
+  out += aligned(rows);
+  for (const auto& [id, s] : agents_) {
+    if (!s.refused.none())
+      out += text("\n  carrier %u refuses ", id) + plan_name(s.refused, coordinator_) + ": " + s.refusal;
+  }
+  for (const auto& [process, h] : health_) {
+    if (!h.complaint.empty()) out += "\n  " + process + " complains: " + h.complaint;
+    if (process.rfind("agent", 0) == 0) continue;  // in the table above
+    out += "\n  " + process + " dropped " + dropped(h.dropped) + "; unreadable " + count(h.undecodable) +
+           ", not sent " + count(h.unsendable) + ", overrun " + count(h.overrun);
+  }
+  return out + "\n";
+}
+
+}  // namespace gyre::ground

@@ -1,0 +1,120 @@
+#include "ground/swarm/orders.hpp"
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+
+#include "common/dds/inbox.hpp"
+#include "common/dds/node.hpp"
+#include "common/program/mission_argument.hpp"
+#include "common/program/program.hpp"
+#include "common/protocol/messages.hpp"
+
+namespace gyre::ground {
+namespace {
+
+using protocol::CommandKind;
+
+/// To find a coordinator at all.
+constexpr Duration kPatience = std::chrono::seconds(5);
+/// For its answer: a transition is answered when it is agreed, which takes several rehearsals on a busy machine.
+constexpr Duration kPatienceOnceFound = std::chrono::seconds(20);
+/// The reply's way back may be found after the command's way there, so the same command is said again, with its id.
+constexpr Duration kRepeat = std::chrono::milliseconds(250);
+
+/// Two senders at once must not take each other's answer.
+std::uint64_t fresh_id() {
+  std::random_device source;
+  return (static_cast<std::uint64_t>(source()) << 32) | source();
+}
+
+/// Where else on this machine a coordinator is: the usual reason for silence is another domain.
+std::string coordinators_elsewhere() {
+  std::string found;
+  for (int domain = 0; domain <= dds::kMaxDomain; ++domain) {
+    const dds::SeatHolder holder = dds::seat_holder({dds::Hub::kCoordinator, std::nullopt}, domain);
+    if (holder.taken) found += "\n  domain " + std::to_string(domain) + ": " + holder.holder;
+  }
+  return found.empty() ? "No coordinator runs on this machine; start one with gyre-coordinator or `gyre fly`."
+                       : "Coordinators on this machine (choose with --domain):" + found;
+}
+
+std::optional<protocol::CommandReply> ask(dds::Node& node, const protocol::Command& command) {
+  const auto inbox = std::make_shared<dds::Inbox<protocol::CommandReply>>();
+  node.read<protocol::CommandReply>(
+      [inbox](protocol::CommandReply reply, LocalTime) { inbox->push(std::move(reply)); });
+  const auto writer = node.writer<protocol::Command>();
+  const LocalTime begin = dds::now();
+  bool found = false;
+  for (LocalTime next = begin; next < begin + (found ? kPatienceOnceFound : kPatience); next += kRepeat) {
+    found = found || writer.readers() > 0;
+    writer.write(command);
+    for (const protocol::CommandReply& reply : inbox->wait_until(next + kRepeat)) {
+      if (reply.id == command.id) return reply;
+    }
+  }
+  return std::nullopt;
+}
+
+int send(CommandKind kind, const std::string& mission, const program::NetworkOptions& options) {
+  const auto node = program::open_node(options, {});
+  if (!node) return node.error();
+  const auto reply = ask(*node.value(), {fresh_id(), kind, mission});
+  if (!reply) {
+    std::fprintf(stderr, "No coordinator answered on domain %d within %.0f s.\n%s\n", node.value()->domain(),
+                 seconds(kPatience), coordinators_elsewhere().c_str());
+    return program::kFailed;
+  }
+  std::fprintf(reply->done ? stdout : stderr, "%s\n", reply->text.c_str());
+  return reply->done ? program::kGood : program::kFailed;
+}
+
+/// The mission is read here first: a bad file is answered on the spot, with its lines.
+int retune(const std::string& path, const program::NetworkOptions& options) {
+  const auto read = program::read_mission(path);
+  if (!read) return read.error();
+  const std::string text = mission::to_text(read.value());
+  if (text.size() > protocol::kMaxMissionBytes) {
+    std::fprintf(stderr, "%s: %zu bytes are more than the %zu a retune can carry; fewer carriers, or a new flight\n",
+                 path.c_str(), text.size(), protocol::kMaxMissionBytes);
+    return program::kBadUsage;
+  }
+  return send(CommandKind::kRetune, text, options);
+}
+
+program::Command order(const char* name, const char* purpose, CommandKind kind) {
+  const auto options = std::make_shared<program::NetworkOptions>();
+  return {name, purpose, {program::network_options(*options)}, [options, kind] { return send(kind, "", *options); }};
+}
+
+}  // namespace
+
+program::Command engage_command() {
+  return order("engage", "Tell the coordinator to go from rest to the mission's motion.", CommandKind::kEngage);
+}
+
+program::Command release_command() {
+  return order("release", "Tell the coordinator to bring every carrier back to rest.", CommandKind::kRelease);
+}
+
+program::Command freeze_command() {
+  return order("freeze", "Tell the coordinator to hold the load as it is held now.", CommandKind::kFreeze);
+}
+
+program::Command retune_command() {
+  struct Options {
+    std::string mission;
+    program::NetworkOptions network;
+  };
+  const auto options = std::make_shared<Options>();
+  return {"retune",
+          "Tell the coordinator to go over to another motion, in flight.",
+          // By hand: a container that knows its own mission would otherwise retune to it.
+          {program::own({program::mission_argument(options->mission, program::Take::kByHand)}),
+           program::network_options(options->network)},
+          [options] { return retune(options->mission, options->network); }};
+}
+
+}  // namespace gyre::ground

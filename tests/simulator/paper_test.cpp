@@ -60,8 +60,8 @@ TEST(Paper, HangsAtRestForMinutes) {
   EXPECT_LT(rest.rotation_deg, 1e-7);
 }
 
-// docs/design.md, fact 6: a small wrench w displaces the load by K⁻¹ w. The force rises slowly and the swing it leaves is
-// averaged out.
+// docs/design.md, fact 6: a small wrench w displaces the load by K⁻¹ w. The force rises slowly and the swing it leaves
+// is averaged out.
 TEST(Paper, WindDisplacesTheLoadByItsStiffness) {
   const mechanics::Plan plan = mechanics::rest_plan(rigs::paper());
   const Eigen::Vector3d force_w_n(0.004, -0.003, 0.002);

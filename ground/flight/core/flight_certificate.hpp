@@ -9,7 +9,7 @@
 
 #include "common/mechanics/certificate.hpp"
 #include "common/protocol/messages.hpp"
-#include "ground/flight/mission_plans.hpp"
+#include "ground/flight/core/mission_plans.hpp"
 
 namespace gyre::ground {
 

@@ -10,7 +10,7 @@
 
 #include "common/protocol/liveness.hpp"
 #include "common/protocol/messages.hpp"
-#include "ground/flight/mission_plans.hpp"
+#include "ground/flight/core/mission_plans.hpp"
 
 namespace gyre::ground {
 

@@ -68,7 +68,7 @@ function(gyre_test name)
   set(labels ${room} ${arg_LABELS})
   list(REMOVE_DUPLICATES labels)
   set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${labels}")
-  if("processes" IN_LIST labels OR "dds" IN_LIST labels)
+  if("dds" IN_LIST labels)
     set_tests_properties(${name} PROPERTIES RUN_SERIAL ON)  # real time on few cores: alone on the machine
   endif()
 endfunction()

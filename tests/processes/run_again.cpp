@@ -104,6 +104,7 @@ void run_again(std::vector<std::string> arguments, const std::vector<StarvedTest
   for (std::string& word : arguments) words.push_back(word.data());
   words.push_back(nullptr);
   ::setenv(kSecondRun, "1", 1);
+  for (const char* const variable : {"GTEST_TOTAL_SHARDS", "GTEST_SHARD_INDEX"}) ::unsetenv(variable);  // all of these
   ::execv("/proc/self/exe", words.data());
   std::perror("cannot run again");
 }

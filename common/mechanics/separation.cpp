@@ -52,10 +52,7 @@ Sphere enclose(const Path& path, double begin_s, double end_s) {
 class Pair {
  public:
   Pair(const Path& a, const Path& b)
-      : a_(a),
-        b_(b),
-        speeds_(a.speed_max_m_s + b.speed_max_m_s),
-        accelerations_(a.acceleration_max_m_s2 + b.acceleration_max_m_s2) {}
+      : a_(a), b_(b), accelerations_(a.acceleration_max_m_s2 + b.acceleration_max_m_s2) {}
 
   /// Lowers `least` where this pair comes closer, on the cell of half width h around t; true if it did.
   bool search(double t, double h, Least& least) const {
@@ -65,10 +62,10 @@ class Pair {
     const double square = d.squaredNorm();
     bool closer = least.include(square);
     if (least.floor() == 0.0) return closer;  // they touch: nothing is closer than that
-    const double reach = std::sqrt(square) + speeds_ * h;
     const double slope = 2.0 * std::abs(d.dot(a.first - b.first));
-    // F >= F(t) − |F'(t)| h − |D|_max (a_i + a_j) h²
-    if (square - slope * h - reach * accelerations_ * h * h >= least.floor() * least.floor()) return closer;
+    // F >= F(t) − |F'(t)| h − |D(t)| (a_i + a_j) h²
+    const double bound = square - slope * h - std::sqrt(square) * accelerations_ * h * h;
+    if (bound >= least.floor() * least.floor()) return closer;
     closer |= search(t - 0.5 * h, 0.5 * h, least);
     closer |= search(t + 0.5 * h, 0.5 * h, least);
     return closer;
@@ -77,7 +74,6 @@ class Pair {
  private:
   const Path& a_;
   const Path& b_;
-  double speeds_;
   double accelerations_;
 };
 

@@ -1,11 +1,14 @@
 #pragma once
 // How close two carriers ever come: a lower bound that is proven, and attained to kSeparationSlack_m.
 //
-//   D = p_i − p_j,  F = D·D,  F' = 2 D·D',  F'' = 2 |D'|² + 2 D·D'' >= −2 |D| (a_i + a_j)
+//   D = p_i − p_j,  F = D·D,  F' = 2 D·D'
 //
-// On a cell of half width h around t: |D| <= |D(t)| + (v_i + v_j) h, so F >= F(t) − |F'(t)| h − |D|_max (a_i + a_j) h².
-// The speeds v and accelerations a are the certificate's own, exact for all time; so this is a proof, by branch and
-// bound. A bound on the first derivative alone would prove as much with thousands of times the cells.
+// On a cell of half width h around t: D(t + s) = D + D' s + r with |r| <= (a_i + a_j) s² / 2, and so
+//
+//   F(t + s) = |D + D' s + r|² >= |D|² + 2 D·(D' s + r) >= F(t) − |F'(t)| h − |D(t)| (a_i + a_j) h²
+//
+// The accelerations a are the certificate's own, exact for all time; so this is a proof, by branch and bound. A bound
+// on the first derivative alone would prove as much with thousands of times the cells.
 //
 // Reference: DESIGN fact 1 (where no polynomial is at hand).
 

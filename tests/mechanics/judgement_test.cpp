@@ -189,6 +189,27 @@ TEST(LimitsOfAPlan, each_is_kept_to_the_figure_and_broken_beyond_it) {
   }
 }
 
+TEST(LimitsOfAPlan, a_cable_may_point_down_as_steeply_as_up_and_not_turn_over) {
+  const auto kept = [](double least, double greatest, double limit) {
+    CarrierFigures figures;
+    figures.tension_n = {1.0, 2.0};
+    figures.length_m = {1.0, 2.0};
+    figures.vertical_cosine = {least, greatest};
+    Limits limits;
+    limits.vertical_cosine_min = limit;
+    std::vector<Reason> reasons;
+    judge_carrier(figures, limits, false, reasons);
+    return reasons.empty();
+  };
+  for (const double limit : {0.0, 0.5, 0.8}) {
+    EXPECT_TRUE(kept(0.8, 0.9, limit));
+    EXPECT_TRUE(kept(-0.9, -0.8, limit));
+  }
+  EXPECT_FALSE(kept(0.8, 0.9, 0.81));
+  EXPECT_FALSE(kept(-0.9, -0.8, 0.81));
+  EXPECT_FALSE(kept(-0.9, 0.9, 0.1)) << "in between it is level";
+}
+
 TEST(LimitsOfAPlan, a_plan_meant_to_stand_still_is_not_asked_to_move) {
   Plan still = static_plan(paper_plan(), 0.7);
   still.limits.speed_min_m_s = 1.0;

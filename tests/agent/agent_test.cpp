@@ -144,6 +144,22 @@ TEST_F(AgentTest, ANewTermWithTheSameCourseIsNoStep) {
   EXPECT_EQ(status_->term, 2 * kTerm);
 }
 
+TEST_F(AgentTest, ANewTermsSwarmTimeMayBeALittleOffAndIsWalkedTo) {
+  rest();
+  const Duration before = status_->clock_uncertainty;
+  const auto nonsense = agent_->dropped().nonsense;
+  term_ = 2 * kTerm;
+  off_ = milliseconds(2);
+  beacon();
+  watch_for_steps();
+  fly(milliseconds(110), false);
+  EXPECT_GT(status_->clock_uncertainty, before + off_);
+  fly(seconds(8));
+  EXPECT_EQ(agent_->dropped().nonsense, nonsense) << "no exchange was a contradiction";
+  const SwarmTime now = swarm() - milliseconds(10);  // of the last tick
+  EXPECT_NEAR(gyre::seconds(setpoint_->swarm_time - now), gyre::seconds(off_), 1e-4);
+}
+
 TEST_F(AgentTest, WhatWasConfirmedToOneTermIsNotConfirmedToTheNext) {
   rest();
   transition(kMotion, milliseconds(600), seconds(5), Stage::kProposed);

@@ -99,6 +99,22 @@ RC_GTEST_PROP(Merge, LandsExactlyAndLeavesHalfOfTheVehicleToThePlan, ()) {
   RC_ASSERT((before.position_w_m.value - reference.position_w_m.value).norm() < 1e-9);
 }
 
+TEST(Merge, OfAGapThatGrowsTakesHalfOfTheAccelerationAndNoMore) {
+  // Both fade in ten seconds, and ask for most at nearly the same moment.
+  Command flown;
+  flown.position_w_m.value.x() = 4.33;
+  flown.position_w_m.first.x() = 0.633;
+  const Path place = held(Command{});
+  Merge merge({100.0, 1.0, 1.0});
+  merge.begin(kNow, flown, place);
+  double most_m_s2 = 0.0;
+  for (SwarmTime t = kNow; merge.under_way(t); t += std::chrono::milliseconds(10)) {
+    most_m_s2 = std::max(most_m_s2, merge.apply(t, place).position_w_m.second.norm());
+  }
+  EXPECT_LE(most_m_s2, 0.5);
+  EXPECT_GT(most_m_s2, 0.48);
+}
+
 TEST(Merge, OfWhoFellBehindOnAMotionStaysOnItsPath) {
   using std::chrono::milliseconds;
   for (const auto behind : {milliseconds(500), milliseconds(3000), milliseconds(10000), milliseconds(-4000)}) {

@@ -53,9 +53,9 @@ class AgentTest : public testing::Test {
     return out;
   }
 
-  protocol::TimeReply reply_to(const protocol::TimeRequest& request, std::uint64_t term = kTerm) {
-    const SwarmTime then(request.sent.time_since_epoch() + kOffset);
-    return {1, request.incarnation, request.sequence, term, request.sent, then, then};
+  protocol::TimeReply reply_to(const protocol::TimeRequest& request) {
+    const SwarmTime then(request.sent.time_since_epoch() + kOffset + off_);
+    return {1, request.incarnation, request.sequence, term_, request.sent, then, then};
   }
 
   /// Lets time pass; a coordinator that `answers` the time requests and beacons.
@@ -69,7 +69,7 @@ class AgentTest : public testing::Test {
     }
   }
 
-  Outputs beacon() { return tell(Beacon{kTerm, ++sequence_, swarm(), *course_}); }
+  Outputs beacon() { return tell(Beacon{term_, ++sequence_, swarm() + off_, *course_}); }
 
   Outputs offer(const std::vector<PlanNumber>& numbers, std::uint64_t term = kTerm) {
     protocol::PlanOffer offer{1, term, {}};
@@ -127,6 +127,8 @@ class AgentTest : public testing::Test {
     return mechanics::evaluate(slice(n), gyre::seconds(setpoint_->swarm_time - epoch));
   }
 
+  std::uint64_t term_ = kTerm;
+  Duration off_{};                         ///< the coordinator's swarm time
   LocalTime now_{-std::chrono::hours(1)};  // below zero: nothing may depend on where a clock begins
   std::unique_ptr<Agent> agent_;
   std::optional<Course> course_;

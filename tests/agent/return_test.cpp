@@ -37,6 +37,22 @@ TEST_F(AgentTest, AfterALongStallItBeginsWhereItsCarrierHasGone) {
   EXPECT_LT((setpoint_->position_w_m - planned).norm(), 1e-9);
 }
 
+TEST_F(AgentTest, AfterALongStallOldStatesThatWaitedForItAreNotBelieved) {
+  rest();
+  now_ += seconds(2);
+  const std::uint64_t before = setpoint_->sequence;
+  fly(milliseconds(140));  // the vehicle's word from before the stall, again and again
+  EXPECT_EQ(setpoint_->sequence, before);
+  vehicle_->position_w_m += Eigen::Vector3d(0.1, -0.05, 0.02);
+  std::optional<protocol::Setpoint> first;
+  visit_ = [&](const protocol::Setpoint& s) {
+    if (!first) first = s;
+  };
+  fly(milliseconds(100));
+  ASSERT_TRUE(first);
+  EXPECT_LT((first->position_w_m - vehicle_->position_w_m).norm(), 1e-9);
+}
+
 TEST_F(AgentTest, AfterALongStallAMuteVehicleIsNotWaitedForForEver) {
   rest();
   vehicle_.reset();
@@ -103,6 +119,25 @@ TEST_F(AgentTest, RestartedInFlightItBeginsWhereItsCarrierIs) {
   fly(seconds(20));
   const auto r = reference(kMotion, course_->base.epoch);
   EXPECT_LT((setpoint_->position_w_m - r.position_w_m.value).norm(), 1e-9);
+}
+
+TEST_F(AgentTest, RestartedInFlightItAllowsForTheAgeOfItsVehiclesWord) {
+  rest();
+  vehicle_->velocity_w_m_s = Eigen::Vector3d(0.4, 0.3, 0.0);
+  vehicle_->winch_rate_m_s = 0.1;
+  const protocol::CarrierState said = *vehicle_;
+  restart(3);
+  setpoint_.reset();
+  offer({kRest, kMotion, kOther});
+  const LocalTime then = now_;
+  tell(said);
+  vehicle_.reset();
+  while (!setpoint_ && now_ < then + milliseconds(400)) fly(milliseconds(10));
+  ASSERT_TRUE(setpoint_);
+  const double age_s = gyre::seconds(now_ - milliseconds(10) - then);
+  ASSERT_GT(age_s, 0.05);
+  EXPECT_LT((setpoint_->position_w_m - (said.position_w_m + age_s * said.velocity_w_m_s)).norm(), 1e-3);
+  EXPECT_NEAR(setpoint_->winch_length_m, said.winch_length_m + age_s * said.winch_rate_m_s, 1e-4);
 }
 
 TEST_F(AgentTest, RestartedAndStalledBeforeItsFirstSetpointItBeginsWhereItsCarrierIsByThen) {

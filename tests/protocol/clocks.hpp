@@ -17,13 +17,18 @@ using std::chrono::milliseconds;
   return from_seconds(1e-3 * value);
 }
 
-/// The local clock as a function of the true one, which is the swarm's: local = offset + (1 + drift) · true.
+/// The local clock as a function of the true one, which is the swarm's: local' = 1 + drift + wander sin(2π t / kDay).
 struct WrongClock {
   Duration offset{};
   double drift = 0.0;
+  double wander = 0.0;  ///< with the temperature, which comes and goes
+
+  static constexpr Duration kDay = hours(1);
 
   [[nodiscard]] LocalTime show(SwarmTime t) const {
-    return LocalTime(offset + t.time_since_epoch() + Duration(std::llround(drift * since_start(t))));
+    const double day = static_cast<double>(kDay.count()) / (2.0 * M_PI);
+    const double wandered = wander * day * (1.0 - std::cos(since_start(t) / day));
+    return LocalTime(offset + t.time_since_epoch() + Duration(std::llround(drift * since_start(t) + wandered)));
   }
 
  private:

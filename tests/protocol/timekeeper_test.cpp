@@ -118,6 +118,25 @@ TEST(Timekeeper, UncertaintyCoversTheErrorWhateverTheClockAndTheNetwork) {
   EXPECT_GT(moments, 1'000'000);
 }
 
+// However long a drift was learned: the quartz wanders on, in flight and alone.
+TEST(Timekeeper, UncertaintyCoversAQuartzThatWandersWithTheTemperature) {
+  for (int phase = 0; phase < 8; ++phase) {
+    const WrongClock clock{hours(3), 50e-6, 2e-6};
+    Exchanges exchanges(clock, {microseconds(30), microseconds(20), microseconds(30), microseconds(20)}, 1);
+    Timekeeper keeper;
+    const SwarmTime begin = kBegin + phase * WrongClock::kDay / 8;
+    const SwarmTime end = begin + std::chrono::minutes(20);
+    const auto covered = [&](SwarmTime t) {
+      EXPECT_LE(magnitude(error(keeper, clock, t)), keeper.uncertainty(clock.show(t)))
+          << "eighth " << phase << ", " << seconds(t - begin) << " s after the start";
+    };
+    run(keeper, exchanges, begin, end, covered);
+    for (const int alone_s : {300, 900, 1800, 3600}) covered(end + std::chrono::seconds(alone_s));
+    EXPECT_LT(keeper.uncertainty(clock.show(end)), microseconds(150)) << "it is followed";
+    if (HasFailure()) return;
+  }
+}
+
 TEST(Timekeeper, HoldoverGrowsUncertainSlowlyAndForEver) {
   Settled s;
   Duration before = s.keeper.uncertainty(s.clock.show(s.now));

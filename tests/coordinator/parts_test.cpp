@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/mechanics/orbit_figures.hpp"
 #include "common/mechanics/rest_plan.hpp"
 #include "coordinator/core/agreement.hpp"
 #include "coordinator/core/fleet.hpp"
@@ -49,6 +50,21 @@ TEST(Fleet, TellsWhoCameWentAndCameBackAnother) {
   ASSERT_EQ(changes.size(), 1U);
   EXPECT_TRUE(changes[0].restarted);
   EXPECT_EQ(fleet.missing(kNow + seconds(1), [](const auto&) { return true; }), std::vector<CarrierId>{2});
+}
+
+TEST(Fleet, TheDeadConfirmNothing) {
+  Fleet fleet({1}, milliseconds(450));
+  protocol::AgentStatus former = status(1, 7, 1);
+  former.confirmed = 4;
+  EXPECT_EQ(fleet.take(kNow, former), Fleet::Verdict::kTaken);
+  EXPECT_EQ(fleet.take(kNow, status(1, 1, 2)), Fleet::Verdict::kTaken);
+  (void)fleet.changes(kNow);
+  ++former.sequence;  // it was on its way for long
+  EXPECT_EQ(fleet.take(kNow, former), Fleet::Verdict::kLate);
+  EXPECT_EQ(fleet.status(1)->incarnation, 2U);
+  EXPECT_EQ(fleet.status(1)->confirmed, 0U);
+  EXPECT_TRUE(fleet.changes(kNow).empty());
+  EXPECT_EQ(fleet.take(kNow, status(1, 2, 2)), Fleet::Verdict::kTaken);
 }
 
 TEST(PlanBook, KnowsAPlanByWhatItIs) {
@@ -145,6 +161,23 @@ TEST(Recovery, IsCompleteWhenEveryPlanOfTheCourseIsHeld) {
   EXPECT_FALSE(recovery.complete_for(2));
 }
 
+TEST(Recovery, FindsWhoCarriesAnotherLoad) {
+  const mechanics::Plan plan = mechanics::test::polygon_plan(3);
+  const Slices ours = by_carrier(mechanics::slices(plan));
+  const auto stranger_where = [&](CarrierId carrier, mechanics::CarrierSlice slice) {
+    Recovery recovery;
+    recovery.take(protocol::HeldPlans{1, 1, {{{5, 1}, ours.at(1)}}});
+    recovery.take(protocol::HeldPlans{carrier, 1, {{{5, 1}, slice}}});
+    return recovery.stranger_to(ours);
+  };
+  mechanics::CarrierSlice slice = ours.at(2);
+  slice.rate_rad_s *= 2.0;
+  EXPECT_FALSE(stranger_where(2, slice)) << "another motion of the same load";
+  slice.attachment_w_m.z() += 0.1;
+  EXPECT_EQ(stranger_where(2, slice), CarrierId{2});
+  EXPECT_FALSE(stranger_where(9, slice)) << "nobody of this mission";
+}
+
 class Rehearsed : public testing::Test {
  protected:
   Rehearsed() {
@@ -185,6 +218,69 @@ TEST_F(Rehearsed, FindsCarriersThatComeTooClose) {
   EXPECT_EQ(steps(bad), 4);
   ASSERT_FALSE(bad.reasons().empty());
   EXPECT_EQ(bad.reasons().front().rule, mechanics::Rule::kSeparation);
+}
+
+TEST_F(Rehearsed, ALimitThatBreaksOnlyTowardsTheEndIsFound) {
+  for (auto& stack : stacks_) stack.back().duration_s = 30.0;  // slow: the motion itself is what is fastest
+  mechanics::Limits limits;
+  limits.speed_max_m_s = 0.9 * mechanics::orbit_figures(motion_.front()).speed_m_s.max;
+  Rehearsal late = rehearsal(limits);
+  EXPECT_EQ(steps(late), 1);
+  ASSERT_FALSE(late.reasons().empty());
+  EXPECT_EQ(late.reasons().front().rule, mechanics::Rule::kSpeed);
+}
+
+TEST_F(Rehearsed, WhatIsStillUnderWayIsPartOfIt) {
+  // Half-way into the motion it is turned back to rest, where it came from.
+  std::vector<std::vector<Eigen::Vector3d>> places;
+  for (std::size_t i = 0; i < stacks_.size(); ++i) {
+    stacks_[i].back().start_s = -3.0;
+    stacks_[i].push_back({&rest_[i], 0.0, 0.0, 5.0});
+    places.emplace_back();
+    mechanics::test::sample(0.0, 5.0, 500, [&](double t_s) {
+      const auto& stack = stacks_[i];
+      places.back().push_back(mechanics::evaluate_course(stack.data(), stack.size(), t_s).position_w_m.value);
+    });
+  }
+  double least_m = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < places[0].size(); ++k) {
+    for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 2), std::pair(2, 0)}) {
+      least_m = std::min(least_m, (places[a][k] - places[b][k]).norm());
+    }
+  }
+  const double at_rest_m = (places[0].back() - places[1].back()).norm();
+  ASSERT_LT(least_m, at_rest_m - 0.1);
+  mechanics::Limits limits;
+  limits.separation_min_m = 0.5 * (least_m + at_rest_m);
+  Rehearsal close = rehearsal(limits);
+  EXPECT_EQ(steps(close), 4);
+  EXPECT_FALSE(close.reasons().empty());
+
+  limits = {};
+  limits.speed_max_m_s = 0.1 * mechanics::orbit_figures(motion_.front()).speed_m_s.max;
+  Rehearsal fast = rehearsal(limits);
+  EXPECT_EQ(steps(fast), 1);
+  EXPECT_FALSE(fast.reasons().empty());
+}
+
+TEST_F(Rehearsed, AnAgreementWhoseLeadIsUsedUpIsRehearsedAgainForALaterStart) {
+  Intent intent;
+  intent.to = {1, 2};
+  intent.duration = seconds(5);
+  const AgreementOptions options;
+  Agreement agreement(1, intent, options);
+  SwarmTime now{};
+  for (int attempt = 1; attempt <= options.attempts; ++attempt) {
+    agreement.schedule(now, 3);
+    agreement.rehearse(rehearsal({}));
+    for (int carrier = 0; carrier < 3; ++carrier) ASSERT_EQ(agreement.step(now, {}), Agreement::Step::kWait);
+    const SwarmTime last = agreement.transition().start - options.lead / 2 - options.go_margin;
+    EXPECT_EQ(Agreement(agreement).step(last, {}), Agreement::Step::kPropose);
+    now = last + Duration(1);
+    ASSERT_EQ(agreement.step(now, {}), attempt < options.attempts ? Agreement::Step::kAgain : Agreement::Step::kGiveUp);
+  }
+  EXPECT_EQ(agreement.transition().duration, seconds(5)) << "a slower one would take as long to rehearse";
+  EXPECT_NE(agreement.why().find("too long"), std::string::npos);
 }
 
 TEST_F(Rehearsed, AnAgreementTriesSlowerAndThenGivesUp) {

@@ -25,7 +25,7 @@ class SwarmOfAgents {
     finished.reset();
     for (const auto& [id, held] : held_) tell(held);  // transient local
   }
-  void stop_coordinator() { coordinator_.reset(); }
+  void stop_coordinator() { coordinator_.reset(), offers_.clear(); }
 
   void start_agent(CarrierId id, const mechanics::Limits& vehicle = {}) {
     agent::AgentOptions options;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/mechanics/orbit_figures.hpp"
 #include "tests/coordinator/swarm_of_agents.hpp"
 #include "tests/mechanics/plans.hpp"
 
@@ -57,6 +58,24 @@ TEST(Command, ToRestIsDoneWithClocksThatAreTooFarApartForTheMotion) {
   swarm.fly(seconds(1));
   const std::string answer = swarm.command(CommandKind::kRelease);
   EXPECT_TRUE(says(answer, "done")) << answer;
+}
+
+TEST(Command, ToRetuneIsRehearsedOverWhatIsStillUnderWay) {
+  Job fast = job();
+  fast.transition = seconds(20);
+  Job slow = fast;
+  slow.plan.cycle.rate_rad_s *= 0.5;
+  slow.plan.limits.speed_max_m_s = 0.7 * mechanics::orbit_figures(mechanics::slices(fast.plan).front()).speed_m_s.max;
+  SwarmOfAgents from_rest(slow);
+  from_rest.fly(seconds(1));
+  EXPECT_TRUE(says(from_rest.command(CommandKind::kEngage), "done"));
+  SwarmOfAgents swarm(fast);
+  swarm.fly(seconds(1));
+  EXPECT_TRUE(says(swarm.command(CommandKind::kEngage), "done"));
+  swarm.fly(seconds(5));
+  ASSERT_EQ(swarm.coordinator().course().transitions.size(), 1U);
+  const std::string answer = swarm.retune(slow);
+  EXPECT_TRUE(says(answer, "it would break a limit")) << answer;
 }
 
 TEST(Command, IsNotUndoneByACoordinatorThatHearsNobody) {

@@ -53,7 +53,7 @@ class Wire {
 
   void report_health(const Agent& agent) {
     const LocalTime now = gyre::dds::now();
-    health_.step(now, agent.complaint(now), agent.dropped(), inbox_.dropped());
+    health_.step(now, agent.complaint(now), agent.dropped(), inbox_.dropped(), inbox_.late());
   }
 
  private:

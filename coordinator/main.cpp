@@ -88,7 +88,7 @@ class Wire {
 
   void report_health(const Coordinator& coordinator) {
     const LocalTime now = gyre::dds::now();
-    health_.step(now, coordinator.complaint(now), coordinator.dropped(), inbox_.dropped());
+    health_.step(now, coordinator.complaint(now), coordinator.dropped(), inbox_.dropped(), inbox_.late());
   }
 
  private:

@@ -58,7 +58,7 @@ class Wire {
 
   void report_health(const Simulator& simulator) {
     const LocalTime now = gyre::dds::now();
-    health_.step(now, simulator.complaint(now), simulator.dropped(), inbox_.dropped());
+    health_.step(now, simulator.complaint(now), simulator.dropped(), inbox_.dropped(), inbox_.late());
   }
 
  private:

@@ -334,13 +334,15 @@ std::optional<idl::Health> encode(const protocol::Health& message) {
   wire.undecodable(message.undecodable);
   wire.unsendable(message.unsendable);
   wire.overrun(message.overrun);
+  wire.late_max_ns(message.late_max.count());
   return wire;
 }
 
 std::optional<protocol::Health> decode(const idl::Health& wire) {
-  return protocol::Health{wire.process().to_string(), wire.complaint().to_string(),
-                          from_wire(wire.dropped()),  wire.undecodable(),
-                          wire.unsendable(),          wire.overrun()};
+  return protocol::Health{wire.process().to_string(),  wire.complaint().to_string(),
+                          from_wire(wire.dropped()),   wire.undecodable(),
+                          wire.unsendable(),           wire.overrun(),
+                          Duration(wire.late_max_ns())};
 }
 
 }  // namespace gyre::dds

@@ -1,6 +1,7 @@
 #pragma once
-// Says how this process is: what keeps it from its work, what it dropped and why. Its core's counts, its node's, its
-// inbox's in one place; once per second on the wire, and at once to whoever asks at its seat (`gyre health`).
+// Says how this process is: what keeps it from its work, what it dropped and why, how late it woke. Its core's counts,
+// its node's, its inbox's in one place; once per second on the wire, and at once to whoever asks at its seat (`gyre
+// health`).
 
 #include <optional>
 #include <string>
@@ -19,9 +20,9 @@ class HealthReporter {
 
   /// Publishes when it is due: at the first call, kPeriod after the last publication, and when a complaint comes up or
   /// is settled. Call it as often as the main loop turns, because a loop that does not turn answers nobody. `dropped`
-  /// are the core's counts, `overrun` the inbox's.
+  /// are the core's counts, `overrun` and `late` the inbox's.
   void step(LocalTime now, const std::optional<std::string>& complaint, const protocol::DropCounts& dropped,
-            std::uint64_t overrun);
+            std::uint64_t overrun, Duration late);
 
  private:
   Node& node_;
@@ -29,6 +30,7 @@ class HealthReporter {
   Writer<protocol::Health> writer_;
   std::optional<LocalTime> published_;
   bool complained_ = false;
+  Duration late_max_{};  // since then
 };
 
 }  // namespace gyre::dds

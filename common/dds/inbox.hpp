@@ -41,10 +41,18 @@ class Inbox {
   /// Everything that has arrived by `deadline`, all at once. For loops with a beat of their own: they wake once per
   /// beat and not once per message, which is most of what an idle process costs. Arrival stamps are the listeners'.
   [[nodiscard]] std::deque<Event> sleep_until(LocalTime deadline) {
-    std::this_thread::sleep_until(steady_time(deadline));
+    using Steady = std::chrono::steady_clock;
+    const Steady::time_point due = steady_time(deadline);
+    const bool in_time = Steady::now() < due;
+    std::this_thread::sleep_until(due);
+    late_ = in_time ? Steady::now() - due : Duration{};
     const std::lock_guard<std::mutex> lock(mutex_);
     return std::exchange(events_, {});
   }
+
+  /// How late the last sleep ended: what the machine, or whoever stopped this process, is to blame for. Zero where the
+  /// deadline had passed before: a loop that is late by its own work does not sleep. For the thread that sleeps.
+  [[nodiscard]] Duration late() const { return late_; }
 
   [[nodiscard]] std::uint64_t dropped() const {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -57,6 +65,7 @@ class Inbox {
   std::condition_variable arrived_;
   std::deque<Event> events_;
   std::uint64_t dropped_ = 0;
+  Duration late_{};
 };
 
 }  // namespace gyre::dds

@@ -176,6 +176,7 @@ struct Health {
   std::uint64_t undecodable = 0;  ///< samples that were no such message
   std::uint64_t unsendable = 0;   ///< messages the wire refused
   std::uint64_t overrun = 0;      ///< messages the main loop came too late for
+  Duration late_max{};            ///< how late its main loop woke from a sleep, the worst since the last report
 };
 
 inline constexpr std::size_t kMaxTextBytes = 255;

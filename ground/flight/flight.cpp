@@ -7,6 +7,7 @@
 #include "common/base/interrupts.hpp"
 #include "common/base/text.hpp"
 #include "ground/flight/flight_programs.hpp"
+#include "ground/flight/processor_account.hpp"
 
 namespace gyre::ground {
 namespace {
@@ -43,6 +44,7 @@ void Flight::listen(dds::Node& node) {
   node.read<protocol::Beacon>(enqueue);
   node.read<protocol::CoordinatorStatus>(enqueue);
   node.read<protocol::LoadState>(enqueue);
+  node.read<protocol::Health>(enqueue);
   for (const CarrierId id : carrier_ids(mission_)) {
     node.read<protocol::AgentStatus>(enqueue, id);
     node.read<protocol::CarrierState>(enqueue, id);
@@ -55,6 +57,7 @@ std::optional<FlightFailure> Flight::run() {
     for (const Event& event : inbox_->wait_until(dds::now())) take(event);
     node_.answer_callers({"gyre fly", ""});
     const LocalTime now = dds::now();
+    starvation_.see(now, processor_account());
     interrupts_ += take_interrupts().total();
     if (interrupts_ >= 2) return FlightFailure{"ended at once, as asked: the load was not brought to rest", {}};
     if (const auto failure = look_after_processes()) return failure;
@@ -91,6 +94,8 @@ void Flight::take(const Event& event) {
     }
   } else if (const auto* load = std::get_if<protocol::LoadState>(&event.message)) {
     if (monitor_.under_way(event.arrived)) record_.see(*load, event.arrived);
+  } else if (const auto* health = std::get_if<protocol::Health>(&event.message)) {
+    if (monitor_.under_way(event.arrived)) record_.see(*health);
   }
 }
 

@@ -15,6 +15,7 @@
 #include "ground/flight/core/flight_monitor.hpp"
 #include "ground/flight/core/flight_record.hpp"
 #include "ground/flight/core/flight_report.hpp"
+#include "ground/flight/core/starvation.hpp"
 #include "ground/flight/flight_display.hpp"
 #include "ground/flight/flight_network.hpp"
 #include "ground/flight/supervisor.hpp"
@@ -40,9 +41,12 @@ class Flight {
   /// Absent when the flight was ended before the motion was complete: there is nothing to judge.
   [[nodiscard]] std::optional<FlightReport> report() const;
 
+  /// Whether the machine had time for it.
+  [[nodiscard]] const StarvationJudge& starvation() const { return starvation_; }
+
  private:
   using Message = std::variant<protocol::Beacon, protocol::CoordinatorStatus, protocol::AgentStatus,
-                               protocol::CarrierState, protocol::LoadState>;
+                               protocol::CarrierState, protocol::LoadState, protocol::Health>;
   struct Event {
     Message message;
     LocalTime arrived;
@@ -64,6 +68,7 @@ class Flight {
   FlightMonitor monitor_;
   FlightRecord record_;
   FlightCertificate certificate_;
+  StarvationJudge starvation_;
   std::optional<LocalTime> release_deadline_;
   bool released_ = false;
   int interrupts_ = 0;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/interrupts.hpp"
+#include "common/base/text.hpp"
 #include "common/mechanics/certificate.hpp"
 #include "common/program/mission_argument.hpp"
 #include "common/program/program.hpp"
@@ -38,6 +39,13 @@ std::vector<CarrierId> carrier_ids(const mission::Mission& mission) {
   return ids;
 }
 
+/// What a person should know before he looks for a defect.
+void excuse(const StarvationJudge& starvation) {
+  if (!starvation.starved()) return;
+  const double late_s = seconds(starvation.late_max());
+  say(program::kFailed, text("The machine was starved: a processor came %.2f s late because others had it.", late_s));
+}
+
 int report_failure(const FlightFailure& failure, const Supervisor& supervisor, FlightDirectory& directory) {
   directory.keep();
   std::string text = "The flight failed: " + failure.text + ".";
@@ -55,6 +63,7 @@ int conclude(const Flight& flight, FlightDirectory& directory) {
   const bool written = std::fflush(stdout) == 0;
   if (report->good()) return written ? program::kGood : program::kFailed;
   directory.keep();
+  excuse(flight.starvation());
   return say(program::kFailed, "All logs: " + directory.path());
 }
 
@@ -87,7 +96,10 @@ int fly_certified(const FlyOptions& options, const mission::Mission& mission) {
   for (const std::string& name : supervisor.stop()) {
     say(program::kGood, name + " did not end when asked, and was killed.");
   }
-  return failure ? report_failure(*failure, supervisor, directory) : conclude(flight, directory);
+  if (!failure) return conclude(flight, directory);
+  const int code = report_failure(*failure, supervisor, directory);
+  excuse(flight.starvation());
+  return code;
 }
 
 int fly(const FlyOptions& options) {

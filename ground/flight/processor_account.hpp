@@ -8,7 +8,7 @@
 // A process that has ended is gone from the account, and so is one whose parent has ended before it. What a kernel does
 // not tell counts as nothing: then nobody is said to be starved.
 
-#include "ground/flight/starvation.hpp"
+#include "ground/flight/core/starvation.hpp"
 
 namespace gyre::ground {
 

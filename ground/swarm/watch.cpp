@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -51,7 +52,9 @@ struct Headline {
 void merge(Account& account, const Account& next) {
   const LoadWindow before = account.load;
   const std::string complaint = account.complaint;
+  const std::map<std::string, Duration> late_max = std::move(account.late_max);
   account = next;
+  for (const auto& [process, late] : late_max) account.late_max[process] = std::max(account.late_max[process], late);
   if (!complaint.empty()) account.complaint = complaint;
   account.load.displacement_max_m = std::max(before.displacement_max_m, next.load.displacement_max_m);
   account.load.rotation_max_deg = std::max(before.rotation_max_deg, next.load.rotation_max_deg);
@@ -95,7 +98,7 @@ int watch(const WatchOptions& options) {
       std::visit([&](const auto& message) { swarm.see(message, heard.arrived); }, heard.message);
     }
     const LocalTime now = dds::now();
-    health.step(now, swarm.out_of_contact(now), {}, inbox.dropped());
+    health.step(now, swarm.out_of_contact(now), {}, inbox.dropped(), inbox.late());
     merge(pending, swarm.account(now));
     const Headline headline(pending);
     const bool news = !options.json && (!told || headline != *told);

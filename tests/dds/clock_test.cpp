@@ -103,5 +103,18 @@ TEST_F(ProcessClock, IsWhatAnInboxsDeadlineIsOn) {
   }
 }
 
+TEST_F(ProcessClock, ASleepTellsHowLateItEnded) {
+  dds::set_clock_error(5h, dds::kMaxClockDrift_ppm);
+  dds::Inbox<int> inbox;
+  const LocalTime deadline = dds::now() + 2ms;
+  const Steady due = dds::steady_time(deadline);
+  EXPECT_TRUE(inbox.sleep_until(deadline).empty());
+  const Duration at_most = std::chrono::steady_clock::now() - due;
+  EXPECT_GT(inbox.late(), Duration::zero());
+  EXPECT_LE(inbox.late(), at_most);
+  EXPECT_TRUE(inbox.sleep_until(deadline).empty());
+  EXPECT_EQ(inbox.late(), Duration::zero()) << "who comes after his deadline has only himself to blame";
+}
+
 }  // namespace
 }  // namespace gyre

@@ -164,7 +164,8 @@ TEST(Health, IsReportedOncePerPeriodWithEveryCount) {
   ground->read<protocol::Health>([&](protocol::Health health, LocalTime) { inbox.push(std::move(health)); });
   node->writer<Beacon>().write({0, 0, {}, {0, {}, std::vector<Transition>(kMaxTransitions + 1)}});
 
-  // The steps are half a period apart: the even ones are due, the odd ones are not. `overrun` tells them apart.
+  // The steps are half a period apart: the even ones are due, the odd ones are not. `overrun` tells them apart. Each is
+  // less late than the one before: the worst since the last report is always the odd one's.
   dds::HealthReporter reporter(*node, "agent 3");
   std::uint64_t step = 0;
   std::set<std::uint64_t> arrived;
@@ -173,13 +174,14 @@ TEST(Health, IsReportedOncePerPeriodWithEveryCount) {
       [&](const protocol::Health& health) { return arrived.insert(health.overrun).second && arrived.size() == 5; },
       [&] {
         for (int i = 0; i < 2; ++i, ++step) {
-          reporter.step(LocalTime(step * dds::HealthReporter::kPeriod / 2), "its vehicle is silent", {1, 2, 3, 4},
-                        step);
+          reporter.step(LocalTime(step * dds::HealthReporter::kPeriod / 2), "its vehicle is silent", {1, 2, 3, 4}, step,
+                        1s - Duration(step));
         }
       });
   ASSERT_TRUE(last);
   for (const std::uint64_t overrun : arrived) EXPECT_EQ(overrun % 2, 0U) << "was not due";
-  const protocol::Health expected{"agent 3", "its vehicle is silent", {1, 2, 3, 4}, 0, 1, last->overrun};
+  const protocol::Health expected{"agent 3",     "its vehicle is silent",         {1, 2, 3, 4}, 0, 1,
+                                  last->overrun, 1s - Duration(last->overrun - 1)};
   EXPECT_EQ(tests::bits_of(*last), tests::bits_of(expected));
 }
 

@@ -49,7 +49,7 @@ template <class V> void each_field(protocol::LoadState& m, V& v) { auto& [a, b, 
 template <class V> void each_field(protocol::Command& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
 template <class V> void each_field(protocol::CommandReply& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
 template <class V> void each_field(protocol::CoordinatorStatus& m, V& v) { auto& [a, b, c, d, e, f, g, h, i, j] = m; visit_all(v, a, b, c, d, e, f, g, h, i, j); }
-template <class V> void each_field(protocol::Health& m, V& v) { auto& [a, b, c, d, e, f] = m; visit_all(v, a, b, c, d, e, f); }
+template <class V> void each_field(protocol::Health& m, V& v) { auto& [a, b, c, d, e, f, g] = m; visit_all(v, a, b, c, d, e, f, g); }
 // clang-format on
 
 /// Fills fields with anything their type can hold; a third of the numbers are extremes. Runs inside a property.

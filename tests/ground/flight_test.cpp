@@ -255,6 +255,18 @@ TEST_F(FlightTest, LatenessIsAgainstTheEarliest) {
   EXPECT_NEAR(seconds(record.timing().simulator_lag_max), 0.02, 1e-9);
 }
 
+TEST_F(FlightTest, WhoWokeTheLatestIsNamed) {
+  EXPECT_EQ(flight_table(flight.report()).find("woke"), std::string::npos) << "nobody has told";
+  protocol::Health health;
+  for (const auto& [process, late_s] : {std::pair{"agent 1", 0.001}, {"agent 2", 0.4}, {"simulator", 0.01}}) {
+    health.process = process;
+    health.late_max = from_seconds(late_s);
+    flight.record.see(health);
+  }
+  const std::string table = flight_table(flight.report());
+  EXPECT_NE(table.find("agent 2 woke at most 400.0 ms late"), std::string::npos) << table;
+}
+
 TEST_F(FlightTest, BeaconsMissedBeforeTheFlightDoNotCount) {
   protocol::AgentStatus status;
   for (const auto& [carrier, missed] : {std::pair{1U, 40U}, {1U, 43U}, {2U, 5U}, {1U, 44U}}) {

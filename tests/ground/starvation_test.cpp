@@ -1,6 +1,6 @@
 // A starved machine from a defect: told by the kernel's accounts.
 
-#include "ground/flight/starvation.hpp"
+#include "ground/flight/core/starvation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr pid_t kAgent = 7;
-constexpr pid_t kHog = 8;
+constexpr int kAgent = 7;
+constexpr int kHog = 8;
 constexpr Duration kStep = 50ms;
 
 /// Two processors, an agent that uses two percent of one and waits for nothing.

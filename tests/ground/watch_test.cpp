@@ -160,6 +160,19 @@ TEST_F(WatchTest, BelievesTheNewerOfTwoCoordinatorsAndALaterOneWhenThatIsSilent)
   EXPECT_TRUE(account().calm());
 }
 
+TEST_F(WatchTest, KeepsForOneAccountHowLateEachProcessWoke) {
+  hear_all();
+  for (const int late_ms : {3, 250, 7}) {
+    watch_.see(protocol::Health{"agent 2", "", {}, 0, 0, 0, milliseconds(late_ms)}, now_);
+    watch_.see(protocol::Health{"simulator", "", {}, 0, 0, 0, milliseconds(1)}, now_);
+  }
+  const Account a = account();
+  const auto json = nlohmann::json::parse(account_json(a));
+  EXPECT_EQ(json["late_s"], nlohmann::json({{"agent 2", 0.25}, {"simulator", 0.001}}));
+  EXPECT_NE(account_line(a).find("; agent 2 woke at most 250.0 ms late;"), std::string::npos) << account_line(a);
+  EXPECT_TRUE(account().late_max.empty());
+}
+
 TEST_F(WatchTest, SpeaksToPeopleAndToPrograms) {
   hear_all();
   watch_.see(protocol::Health{"agent \"2\"", "line\nbreak", {}, 0, 0, 0}, now_);

@@ -2,7 +2,7 @@
 // failed on a machine that had time fails at once, and so does one that fails again.
 //
 // While a test runs, a thread reads the kernel's account of this process and all it has started
-// (ground/flight/starvation.hpp). When every test that failed was starved, the program starts itself anew for them
+// (ground/flight/core/starvation.hpp). When every test that failed was starved, the program starts itself anew for them
 // alone. Each is a line on the standard output, and in the file that GYRE_RUN_AGAIN names: tests/run counts them.
 
 #include <gmock/gmock.h>

@@ -48,6 +48,12 @@ void FlightRecord::see(const protocol::AgentStatus& status) {
   timing_.clock_uncertainty_max = std::max(timing_.clock_uncertainty_max, status.clock_uncertainty);
 }
 
+void FlightRecord::see(const protocol::Health& health) {
+  if (!timing_.latest.empty() && health.late_max <= timing_.late_max) return;
+  timing_.late_max = health.late_max;
+  timing_.latest = health.process;
+}
+
 TimingRecord FlightRecord::timing() const {
   TimingRecord timing = timing_;
   for (const auto& [id, missed] : missed_) timing.beacons_missed += missed.last - std::min(missed.first, missed.last);

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/mechanics/plan.hpp"
@@ -45,6 +46,8 @@ struct TimingRecord {
   std::uint64_t beacons_missed = 0;  ///< by all agents together, in the flight
   Duration clock_uncertainty_max{};  ///< of any agent, in the flight
   Duration simulator_lag_max{};      ///< the load's state against the earliest it ever was
+  Duration late_max{};               ///< how late a main loop woke, at worst
+  std::string latest;                ///< whose; "agent 3"
 };
 
 class FlightRecord {
@@ -55,6 +58,7 @@ class FlightRecord {
   void see(const protocol::CarrierState& state, bool motion_proper);
   void see(const protocol::LoadState& state, LocalTime arrived);
   void see(const protocol::AgentStatus& status);
+  void see(const protocol::Health& health);
   void see_beacon() { ++timing_.beacons; }
 
   [[nodiscard]] const std::vector<CarrierRecord>& carriers() const { return carriers_; }

@@ -48,7 +48,9 @@ std::string timing_line(const TimingRecord& timing) {
               static_cast<unsigned long long>(timing.carrier_states), static_cast<unsigned long long>(timing.beacons),
               static_cast<unsigned long long>(timing.beacons_missed)) +
          "simulator at most " + milliseconds(timing.simulator_lag_max) + " late, clocks uncertain by at most " +
-         milliseconds(timing.clock_uncertainty_max);
+         milliseconds(timing.clock_uncertainty_max) +
+         (timing.latest.empty() ? ""
+                                : ", " + timing.latest + " woke at most " + milliseconds(timing.late_max) + " late");
 }
 
 }  // namespace

@@ -65,6 +65,11 @@ std::string SwarmPicture::clock_line() const {
                          100.0 * seconds(c.skew) / seconds(c.skew_budget), 1e3 * seconds(c.skew_budget));
 }
 
+std::string SwarmPicture::woke_late(const std::string& process) const {
+  const auto health = health_.find(process);
+  return health == health_.end() ? "-" : text("%.1f", 1e3 * seconds(health->second.late_max));
+}
+
 std::string SwarmPicture::table() const {
   if (!coordinator_) return "no coordinator\n";
   const protocol::CoordinatorStatus& c = *coordinator_;
@@ -76,20 +81,20 @@ std::string SwarmPicture::table() const {
   out += "  latest   " + c.news + "\n\n";
 
   std::vector<std::vector<std::string>> rows{
-      {"carrier", "state", "plan", "clock uncertain", "drift", "beacons missed", "dropped"},
-      {"", "", "", "ms", "ppm", "", "late / twice / old term / nonsense"}};
+      {"carrier", "state", "plan", "clock uncertain", "drift", "woke late", "beacons missed", "dropped"},
+      {"", "", "", "ms", "ppm", "ms", "", "late / twice / old term / nonsense"}};
   for (const CarrierId id : c.carriers) {
     const auto agent = agents_.find(id);
     const bool silent = std::find(c.silent.begin(), c.silent.end(), id) != c.silent.end();
     if (agent == agents_.end()) {
-      rows.push_back({count(id), silent ? "SILENT" : "not heard", "-", "-", "-", "-", "-"});
+      rows.push_back({count(id), silent ? "SILENT" : "not heard", "-", "-", "-", "-", "-", "-"});
       continue;
     }
     const protocol::AgentStatus& s = agent->second;
-    rows.push_back({count(id), silent ? "SILENT" : name(s.state), plan_name(s.course.base.number, coordinator_),
-                    milliseconds(s.clock_uncertainty), text("%+.2f", s.clock_drift_ppm),
-                    count(s.beacons_missed) + " of " + count(s.beacons_received + s.beacons_missed),
-                    dropped(s.dropped)});
+    rows.push_back(
+        {count(id), silent ? "SILENT" : name(s.state), plan_name(s.course.base.number, coordinator_),
+         milliseconds(s.clock_uncertainty), text("%+.2f", s.clock_drift_ppm), woke_late(text("agent %u", id)),
+         count(s.beacons_missed) + " of " + count(s.beacons_received + s.beacons_missed), dropped(s.dropped)});
   }
   out += aligned(rows);
   for (const auto& [id, s] : agents_) {
@@ -100,7 +105,8 @@ std::string SwarmPicture::table() const {
     if (!h.complaint.empty()) out += "\n  " + process + " complains: " + h.complaint;
     if (process.rfind("agent", 0) == 0) continue;  // in the table above
     out += "\n  " + process + " dropped " + dropped(h.dropped) + "; unreadable " + count(h.undecodable) +
-           ", not sent " + count(h.unsendable) + ", overrun " + count(h.overrun);
+           ", not sent " + count(h.unsendable) + ", overrun " + count(h.overrun) + ", woke " + woke_late(process) +
+           " ms late";
   }
   return out + "\n";
 }

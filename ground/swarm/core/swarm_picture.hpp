@@ -27,6 +27,7 @@ class SwarmPicture {
  private:
   [[nodiscard]] std::string load_line() const;
   [[nodiscard]] std::string clock_line() const;
+  [[nodiscard]] std::string woke_late(const std::string& process) const;
 
   std::optional<protocol::CoordinatorStatus> coordinator_;
   std::optional<protocol::Beacon> beacon_;

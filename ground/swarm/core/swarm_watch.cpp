@@ -1,6 +1,7 @@
 #include "ground/swarm/core/swarm_watch.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/angle.hpp"
 #include "common/base/text.hpp"
@@ -44,6 +45,8 @@ void SwarmWatch::see(const protocol::CoordinatorStatus& status, LocalTime arrive
 }
 
 void SwarmWatch::see(const protocol::Health& health, LocalTime /*arrived*/) {
+  Duration& late = late_max_[health.process];
+  late = std::max(late, health.late_max);
   if (health.complaint.empty()) {
     complaints_.erase(health.process);
   } else {
@@ -114,6 +117,7 @@ Account SwarmWatch::account(LocalTime now) {
   account.complaint = complaint(now);
   account.course = beacon_ ? course_line(*beacon_, coordinator_) : "unknown";
   account.complaints = complaints_;
+  account.late_max = std::exchange(late_max_, {});
   account.load = window_;
   account.allowed = tolerance_;
   window_ = {};

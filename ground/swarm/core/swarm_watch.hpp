@@ -39,6 +39,7 @@ struct Account {
   std::uint64_t term = 0;                         ///< how many coordinators have led this swarm
   std::vector<CarrierId> silent;                  ///< as the coordinator says
   std::map<std::string, std::string> complaints;  ///< of processes, each about itself
+  std::map<std::string, Duration> late_max;       ///< how late processes woke in the window, each by its own word
   LoadWindow load;
   mission::LoadTolerance allowed;  ///< of the load, by the mission
   Duration skew{};
@@ -76,6 +77,7 @@ class SwarmWatch {
   std::optional<protocol::CoordinatorStatus> coordinator_;
   std::optional<protocol::LoadState> last_load_;
   std::map<std::string, std::string> complaints_;
+  std::map<std::string, Duration> late_max_;
   protocol::Liveness beacon_heard_;
   protocol::Liveness coordinator_heard_;
   protocol::Liveness load_heard_;

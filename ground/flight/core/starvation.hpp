@@ -17,8 +17,6 @@
 //
 // Pure: told the time and the kernel's accounts (processor_account.hpp).
 
-#include <sys/types.h>
-
 #include <deque>
 #include <map>
 #include <vector>
@@ -33,9 +31,9 @@ struct ProcessorAccount {
     Duration used{};    ///< of processors, by all of its threads
     Duration waited{};  ///< by its main thread: ready to run, and no processor
   };
-  std::map<pid_t, Process> processes;  ///< ours that live now
-  std::vector<Duration> stolen;        ///< of each processor of the machine, by a hypervisor
-  int processors = 1;                  ///< that we may use
+  std::map<int, Process> processes;  ///< ours that live now, by their numbers
+  std::vector<Duration> stolen;      ///< of each processor of the machine, by a hypervisor
+  int processors = 1;                ///< that we may use
 };
 
 class StarvationJudge {

@@ -1,4 +1,4 @@
-#include "ground/flight/starvation.hpp"
+#include "ground/flight/core/starvation.hpp"
 
 #include <algorithm>
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
 
 #include "tests/ground/gyre_command.hpp"
 
@@ -95,11 +97,25 @@ TEST(BadUsage, IsTwoWithAMessageAndNoOutput) {
   std::filesystem::remove(broken_file);
 }
 
-TEST(Help, IsZero) {
-  for (const char* arguments : {"--help", "check --help", "sample --help"}) {
-    const Answer answer = gyre(arguments);
-    EXPECT_EQ(answer.exit_code, 0) << arguments;
-    EXPECT_NE(answer.output.find("Usage: gyre"), std::string::npos) << arguments;
+TEST(Help, IsThereForEveryCommandThatAPageNames) {
+  std::set<std::string> commands{""};
+  for (const char* page : {"README.md", "ground/README.md", "deploy/README.md"}) {
+    std::ostringstream read;
+    read << std::ifstream(std::string(GYRE_SOURCE_DIR) + "/" + page).rdbuf();
+    const std::string text = read.str();
+    // `gyre check ...`, build/bin/gyre status | engage; not the image of `docker run gyre gyre-agent`
+    const std::regex named("[ `/]gyre [a-z]+(?![\\w-])( \\| [a-z]+(?![\\w-]))*");
+    const std::regex word("[a-z]+");
+    for (std::sregex_iterator found(text.begin(), text.end(), named), none; found != none; ++found) {
+      const std::string words = found->str();
+      for (std::sregex_iterator w(words.begin() + 6, words.end(), word); w != none; ++w) commands.insert(w->str());
+    }
+  }
+  EXPECT_GE(commands.size(), 9u);
+  for (const std::string& command : commands) {
+    const Answer answer = gyre(command + " --help");
+    EXPECT_EQ(answer.exit_code, 0) << command;
+    EXPECT_NE(answer.output.find("Usage: gyre " + command), std::string::npos) << answer.output;
   }
 }
 

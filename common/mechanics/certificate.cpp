@@ -69,8 +69,8 @@ Certificate certify(const Plan& plan, const CertifyOptions& options) {
     if (certificate.stiffness_min_1_s2 <= 0.0) {
       certificate.cautions.push_back(
           {Rule::kStiffness, std::nullopt,
-           "at some moments the cables do not pull the load back to its pose, and a disturbance grows; attach the "
-           "cables higher above the centre of mass, shorten them, or choose offsets that pull the attachments apart"});
+           "at some moments the cables do not pull the load back to its pose, and a swing may grow; attach the cables "
+           "higher above the centre of mass, shorten them, or choose offsets that pull the attachments apart"});
     }
   }
   judge_formation(certificate, plan.limits, certificate.reasons);

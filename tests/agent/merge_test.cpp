@@ -48,13 +48,17 @@ Command circle(SwarmTime at, double radius_m) {
 Path round_and_round(double radius_m) {
   return {[radius_m](SwarmTime at) { return circle(at, radius_m); }, from_seconds(kTwoPi / kRate_rad_s)};
 }
-/// It stands where it should have been `behind` ago.
-Command standing(double radius_m, Duration behind) {
+/// It is where it should have been `behind` ago, and flies on from there at `pace` of the motion's speed.
+Command late(double radius_m, Duration behind, double pace) {
   Command flown = circle(kNow - behind, radius_m);
-  flown.position_w_m.first.setZero();
-  flown.position_w_m.second.setZero();
-  flown.winch_m.first = flown.winch_m.second = 0.0;
+  flown.position_w_m.first *= pace;
+  flown.position_w_m.second *= pace * pace;
+  flown.winch_m.first *= pace;
+  flown.winch_m.second *= pace * pace;
   return flown;
+}
+Command standing(double radius_m, Duration behind) {
+  return late(radius_m, behind, 0.0);
 }
 
 RC_GTEST_PROP(Merge, BeginsWhereTheCarrierIsInValueRateAndAcceleration, ()) {
@@ -118,27 +122,29 @@ TEST(Merge, OfAGapThatGrowsTakesHalfOfTheAccelerationAndNoMore) {
 TEST(Merge, OfWhoFellBehindOnAMotionStaysOnItsPath) {
   using std::chrono::milliseconds;
   for (const auto behind : {milliseconds(500), milliseconds(3000), milliseconds(10000), milliseconds(-4000)}) {
-    const Path path = round_and_round(1.0);
-    const Command flown = standing(1.0, behind);
-    Merge merge({2.0, 2.0, 0.5});
-    merge.begin(kNow, flown, path);
-    Command before = merge.apply(kNow, path);
-    EXPECT_LT((before.position_w_m.value - flown.position_w_m.value).norm(), 1e-6);
-    EXPECT_LT(before.position_w_m.first.norm(), 1e-6);
-    EXPECT_LT(before.position_w_m.second.norm(), 1e-6);
-    SwarmTime t = kNow;
-    while (merge.under_way(t)) {
-      t += milliseconds(10);
-      ASSERT_LT(t, kNow + std::chrono::minutes(1));
-      const Command c = merge.apply(t, path);
-      EXPECT_NEAR(c.position_w_m.value.norm(), 1.0, 1e-6) << "beside the circle";
-      EXPECT_NEAR(c.winch_m.value, 2.0 + 0.1 * c.position_w_m.value.y(), 1e-6) << "a cable for another place";
-      const Eigen::Vector3d slope = (c.position_w_m.value - before.position_w_m.value) / 0.01;
-      EXPECT_LT((slope - 0.5 * (c.position_w_m.first + before.position_w_m.first)).norm(), 1e-4);
-      EXPECT_LT((c.position_w_m.first - before.position_w_m.first).norm(), 0.01 * 2.0);
-      before = c;
+    for (const double pace : {0.0, 0.5, 1.0}) {
+      const Path path = round_and_round(1.0);
+      const Command flown = late(1.0, behind, pace);
+      Merge merge({2.0, 2.0, 0.5});
+      merge.begin(kNow, flown, path);
+      Command before = merge.apply(kNow, path);
+      EXPECT_LT((before.position_w_m.value - flown.position_w_m.value).norm(), 1e-6);
+      EXPECT_LT((before.position_w_m.first - flown.position_w_m.first).norm(), 1e-6);
+      EXPECT_LT((before.position_w_m.second - flown.position_w_m.second).norm(), 1e-6);
+      SwarmTime t = kNow;
+      while (merge.under_way(t)) {
+        t += milliseconds(10);
+        ASSERT_LT(t, kNow + std::chrono::minutes(1));
+        const Command c = merge.apply(t, path);
+        EXPECT_NEAR(c.position_w_m.value.norm(), 1.0, 1e-6) << "beside the circle";
+        EXPECT_NEAR(c.winch_m.value, 2.0 + 0.1 * c.position_w_m.value.y(), 1e-6) << "a cable for another place";
+        const Eigen::Vector3d slope = (c.position_w_m.value - before.position_w_m.value) / 0.01;
+        EXPECT_LT((slope - 0.5 * (c.position_w_m.first + before.position_w_m.first)).norm(), 1e-4);
+        EXPECT_LT((c.position_w_m.first - before.position_w_m.first).norm(), 0.01 * 2.0);
+        before = c;
+      }
+      EXPECT_EQ(merge.apply(t, path).position_w_m.value, circle(t, 1.0).position_w_m.value);
     }
-    EXPECT_EQ(merge.apply(t, path).position_w_m.value, circle(t, 1.0).position_w_m.value);
   }
 }
 

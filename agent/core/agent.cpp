@@ -79,7 +79,10 @@ void Agent::on(LocalTime now, const Tick& /*tick*/, Outputs& out) {
   if (time) {
     protocol::settle(course_, *time);
     const auto r = reference(course_, *time);
-    if (r && back_at_the_vehicle(now)) out.setpoint = setpoint(*time, *r);
+    if (r && back_at_the_vehicle(now)) {
+      const protocol::Setpoint s = setpoint(*time, *r);
+      if (sane(s)) out.setpoint = s;  // where a mixture's forces cancel, the cable has no direction to be flown
+    }
   }
   const bool alone = coordinator_.ever_heard() && coordinator_.silent(now);
   if (alone != alone_) {

@@ -2,11 +2,13 @@
 
 #include <unordered_map>
 
+#include "common/base/ensure.hpp"
 #include "common/mechanics/grasp.hpp"
 
 namespace gyre::mechanics {
 
 std::vector<CarrierSlice> slices(const Plan& plan) {
+  if (plan.carriers.empty()) return {};
   const std::vector<Eigen::Vector3d> arms = lever_arms(plan);
   const ParticularForce particular = particular_force(arms, holding_wrench(plan.load.mass_kg, plan.gravity_m_s2));
 
@@ -22,8 +24,11 @@ std::vector<CarrierSlice> slices(const Plan& plan) {
     out[i].cable_stiffness_n_m = plan.cable.compensate_stretch ? plan.cable.stiffness_n_m : 0.0;
   }
   for (const Edge& edge : plan.cycle.edges) {
-    const std::size_t k = index.at(edge.from);
-    const std::size_t l = index.at(edge.to);
+    const auto from = index.find(edge.from);
+    const auto to = index.find(edge.to);
+    GYRE_ENSURE(from != index.end() && to != index.end(), "both ends of an edge are carriers of its plan");
+    const std::size_t k = from->second;
+    const std::size_t l = to->second;
     // d_j = (r_k − r_l) / |r_k − r_l|; +lambda_j d_j at k, −lambda_j d_j at l: no net force, no net moment.
     const Eigen::Vector3d d = (arms[k] - arms[l]).normalized();
     out[k].outgoing = {d, edge.offset_n, edge.amplitude_n, edge.phase_rad};

@@ -9,7 +9,7 @@
 //
 //   f_i = f0_i + lambda_in delta_i + lambda_out deltabar_i                                    (local force)
 //
-// Source: Franchi, Landi, Gabellieri, internal forces along a Hamiltonian cycle.
+// Source: Franchi, Landi, Gabellieri, local force: internal forces along a Hamiltonian cycle.
 
 #include <Eigen/Core>
 #include <vector>
@@ -58,7 +58,8 @@ struct CarrierSlice {
   return c.incoming.amplitude_n != 0.0 || c.outgoing.amplitude_n != 0.0 || !c.law.profile.constant();
 }
 
-/// One slice per carrier, in the plan's order of carriers.
+/// One slice per carrier, in the plan's order of carriers; none for a plan without. An edge whose end is no carrier of
+/// the plan is a bug of the caller's (GYRE_ENSURE): `certify` refuses such a plan.
 [[nodiscard]] std::vector<CarrierSlice> slices(const Plan& plan);
 
 }  // namespace gyre::mechanics

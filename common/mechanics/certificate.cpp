@@ -34,7 +34,7 @@ double wrench_error(const Plan& plan, const std::vector<CarrierSlice>& slices) {
   return mean.norm() + std::sqrt(sine.squaredNorm() + cosine.squaredNorm());
 }
 
-Separation orbit_separation(const std::vector<CarrierSlice>& slices, const Certificate& certificate) {
+std::optional<Separation> orbit_separation(const std::vector<CarrierSlice>& slices, const Certificate& certificate) {
   std::vector<Path> paths;
   for (std::size_t i = 0; i < slices.size(); ++i) {
     const CarrierFigures& figures = certificate.carriers[i];
@@ -48,6 +48,8 @@ Separation orbit_separation(const std::vector<CarrierSlice>& slices, const Certi
 
 Certificate certify(const Plan& plan, const CertifyOptions& options) {
   Certificate certificate;
+  judge_form(plan, certificate.reasons);
+  if (!certificate.reasons.empty()) return certificate;
   certificate.period_s = period_s(plan);
   judge_equilibrium(plan, certificate.reasons);
 
@@ -66,14 +68,14 @@ Certificate certify(const Plan& plan, const CertifyOptions& options) {
   if (options.stiffness && stretched) {
     certificate.stiffness_min_1_s2 = least_stiffness(plan, all, certificate.period_s);
     certificate.skew = skew_budget(plan, all, certificate.period_s);
-    if (certificate.stiffness_min_1_s2 <= 0.0) {
+    if (*certificate.stiffness_min_1_s2 <= 0.0) {
       certificate.cautions.push_back(
           {Rule::kStiffness, std::nullopt,
            "at some moments the cables do not pull the load back to its pose, and a swing may grow; attach the cables "
            "higher above the centre of mass, shorten them, or choose offsets that pull the attachments apart"});
     }
   }
-  judge_formation(certificate, plan.limits, certificate.reasons);
+  if (certificate.separation) judge_separation(*certificate.separation, plan.limits, certificate.reasons);
   return certificate;
 }
 

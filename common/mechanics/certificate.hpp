@@ -8,9 +8,11 @@
 //
 // The verdict is "admissible" exactly when `reasons` is empty. A reason names the paper's rule that is broken, the
 // carrier, and what would cure it. Figures are given for refused plans too, as far as they exist (infinite where a
-// length law has no bounded length).
+// length law has no bounded length, or a cable goes slack). What is no plan at all (plan.hpp) has no figures, only
+// reasons.
 //
-// Reference: DESIGN section 1, the table of rules and facts 1 and 6.
+// Source: Franchi, Landi, Gabellieri: one-carrier impossibility, two-carrier obstruction and construction, level
+// non-stop motion for n >= 3. Reference: docs/design.md, The mechanics, facts 1, 4 and 6.
 
 #include <optional>
 #include <string>
@@ -23,6 +25,7 @@
 namespace gyre::mechanics {
 
 enum class Rule {
+  kMalformedPlan,
   kOneCarrierImpossibility,
   kTwoCarrierObstruction,
   kTwoCarrierConstruction,
@@ -68,8 +71,8 @@ struct CarrierFigures {
 };
 
 struct Separation {
-  double min_m = std::numeric_limits<double>::infinity();  ///< proven lower bound, attained to 2e-7 m
-  CarrierId first = 0, second = 0;                         ///< the pair that comes so close
+  double min_m = 0.0;               ///< proven lower bound, attained to 2e-7 m
+  CarrierId first = 0, second = 0;  ///< the pair that comes so close
 };
 
 struct Certificate {
@@ -77,12 +80,14 @@ struct Certificate {
   /// What breaks no rule but deserves a look. A stiffness that is negative at some moments is here: the stability of a
   /// motion is decided over its whole period, and passing moments alone do not decide it.
   std::vector<Reason> cautions;
-  double period_s = 0.0;
-  double wrench_error_max_n = 0.0;
-  Separation separation;
+  double period_s = std::numeric_limits<double>::infinity();
+  double wrench_error_max_n = std::numeric_limits<double>::infinity();
+  /// Absent: left out, fewer than two carriers, or a motion without bounds.
+  std::optional<Separation> separation;
   /// Smallest generalised eigenvalue of the load's stiffness against (m I, J) over all time [1/s²] (stiffness.hpp).
-  double stiffness_min_1_s2 = 0.0;
-  SkewBudget skew;                       ///< with `stiffness` only
+  /// Absent: left out, or a cable has no positive, bounded length at some moment.
+  std::optional<double> stiffness_min_1_s2;
+  std::optional<SkewBudget> skew;        ///< absent where the stiffness is: a displacement follows from it
   std::vector<CarrierFigures> carriers;  ///< in the plan's order
 
   [[nodiscard]] bool admissible() const { return reasons.empty(); }
@@ -91,10 +96,11 @@ struct Certificate {
 /// What to compute: the parts that are not per-carrier cost more (pairs, eigenvalues) and can be left out.
 struct CertifyOptions {
   bool separation = true;
-  bool stiffness = true;
-  bool non_stop = true;  ///< off for a plan that is meant to stand still
+  bool stiffness = true;  ///< and the skew budget
+  bool non_stop = true;   ///< off for a plan that is meant to stand still
 };
 
+/// Of any plan, whatever is in it: nothing here asks that it be valid.
 [[nodiscard]] Certificate certify(const Plan& plan, const CertifyOptions& options = {});
 
 }  // namespace gyre::mechanics

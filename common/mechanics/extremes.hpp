@@ -9,7 +9,7 @@
 // each cell is settled by a proof from the coefficients of T: it holds no root; or it holds at most one, which Newton
 // finds; or F cannot change across it by more than rounding. What is left is halved.
 //
-// Reference: DESIGN fact 1; Newton's condition is Kantorovich's.
+// Reference: docs/design.md, fact 1; Newton's condition is Kantorovich's.
 
 #include <initializer_list>
 #include <vector>

@@ -5,7 +5,6 @@
 namespace gyre::mechanics {
 
 CarrierSlice frozen_slice(const std::vector<TimedLayer>& layers, double t_s) {
-  GYRE_ENSURE(!layers.empty(), "a course has at least a bottom layer");
   const Reference reference = evaluate_course(layers.data(), layers.size(), t_s);
   CarrierSlice slice = *layers.back().slice;
   slice.particular_force_w_n = reference.force_w_n.value;

@@ -4,7 +4,7 @@
 // If one carrier is stuck, the equilibrium that includes it is the one in which everybody is where they were when it
 // got stuck. Whatever was under way then, that equilibrium is a set of constant forces and lengths: f(t*) and l(t*).
 //
-// Reference: DESIGN fact 5.
+// Reference: docs/design.md, fact 5.
 
 #include <vector>
 
@@ -12,7 +12,7 @@
 
 namespace gyre::mechanics {
 
-/// `layers` from the bottom up, 1..kMaxLayers; `t_s` on their clock.
+/// `layers` as for evaluate_course; `t_s` on their clock. Not finite where the course's cable is slack at that moment.
 [[nodiscard]] CarrierSlice frozen_slice(const std::vector<TimedLayer>& layers, double t_s);
 
 }  // namespace gyre::mechanics

@@ -10,7 +10,7 @@
 //   G = [ I .. I ; [r_1]x .. [r_n]x ],   G f = w                                              (equilibrium)
 //   f0 = pinv(G) w                                                                            (particular force)
 //
-// Source: Franchi, Landi, Gabellieri, equilibrium of a suspended load; minimum norm as in the paper's figures.
+// Source: Franchi, Landi, Gabellieri, equilibrium and particular force; minimum norm as in the paper's figures.
 
 #include <Eigen/Core>
 #include <vector>
@@ -23,6 +23,7 @@ using GraspMap = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 /// [v]x: skew(v) · a = v × a.
 [[nodiscard]] Eigen::Matrix3d skew(const Eigen::Vector3d& v);
 
+/// At least one lever arm, as for the particular force below.
 [[nodiscard]] GraspMap grasp_map(const std::vector<Eigen::Vector3d>& lever_arms_w);
 
 /// The wrench the cables must exert on a load of this weight.

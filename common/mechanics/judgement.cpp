@@ -1,7 +1,10 @@
 #include "common/mechanics/judgement.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "common/base/text.hpp"
 #include "common/mechanics/grasp.hpp"
@@ -14,6 +17,45 @@ constexpr double kAlmostZero = 1e-9;
 
 void refuse(std::vector<Reason>& reasons, Rule rule, std::optional<CarrierId> carrier, std::string text) {
   reasons.push_back({rule, carrier, std::move(text)});
+}
+
+/// No length, force, mass or rate of this world is greater, and products of a dozen numbers that are not stay finite.
+constexpr double kGreatest = 1e12;
+/// How far a unit vector or quaternion may be from one.
+constexpr double kUnitTolerance = 1e-6;
+
+bool sound(double x) {
+  return std::abs(x) <= kGreatest;  // not so for what is no number
+}
+bool sound(const Eigen::Vector3d& v) {
+  return sound(v.x()) && sound(v.y()) && sound(v.z());
+}
+bool unit(double norm) {
+  return std::abs(norm - 1.0) <= kUnitTolerance;
+}
+bool sound(const Oscillation& o) {
+  const Harmonic& h = o.harmonic;
+  return sound(o.mean) && sound(o.swing) && sound(o.phase_rad) && h.numerator >= 1 && h.numerator <= kMaxNumerator &&
+         h.denominator >= 1 && h.denominator <= kMaxDenominator;
+}
+bool sound(const Load& load) {
+  const Eigen::Matrix3d& inertia = load.inertia_b_kg_m2;
+  return sound(load.mass_kg) && load.mass_kg > 0.0 && sound(load.position_w_m) && unit(load.orientation_w_b.norm()) &&
+         inertia.array().abs().maxCoeff() <= kGreatest && inertia.isApprox(inertia.transpose()) &&
+         inertia.llt().info() == Eigen::Success;
+}
+
+/// Hamiltonian, in order of travel; one edge for two carriers, none for one.
+bool is_cycle(const std::vector<Edge>& edges, const std::set<CarrierId>& carriers) {
+  if (edges.size() != (carriers.size() > 2 ? carriers.size() : carriers.size() - 1)) return false;
+  std::set<CarrierId> left;
+  for (std::size_t j = 0; j < edges.size(); ++j) {
+    const Edge& next = edges[(j + 1) % edges.size()];
+    if (edges[j].from == edges[j].to || carriers.count(edges[j].to) == 0) return false;
+    if (carriers.count(edges[j].from) == 0 || !left.insert(edges[j].from).second) return false;
+    if (edges.size() > 1 && edges[j].to != next.from) return false;
+  }
+  return true;
 }
 
 void judge_pair(const std::vector<CarrierSlice>& slices, std::vector<Reason>& reasons) {
@@ -97,6 +139,8 @@ void at_most(const Bound& b, double figure, const std::optional<double>& limit, 
 
 const char* name(Rule rule) {
   switch (rule) {
+    case Rule::kMalformedPlan:
+      return "malformed plan";
     case Rule::kOneCarrierImpossibility:
       return "one-carrier impossibility";
     case Rule::kTwoCarrierObstruction:
@@ -133,6 +177,46 @@ const char* name(Rule rule) {
       return "stiffness";
   }
   return "unknown";
+}
+
+void judge_form(const Plan& plan, std::vector<Reason>& reasons) {
+  const auto malformed = [&reasons](std::optional<CarrierId> carrier, std::string words) {
+    refuse(reasons, Rule::kMalformedPlan, carrier, std::move(words));
+  };
+  if (plan.carriers.empty()) return malformed(std::nullopt, "no carrier holds the load; add some");
+  if (!sound(plan.load) || !sound(plan.gravity_m_s2)) {
+    malformed(std::nullopt,
+              "the load's mass, inertia, place, orientation or gravity is no such thing; give a positive mass, a "
+              "symmetric and positive definite inertia, a unit quaternion, and numbers of this world");
+  }
+  if (!sound(plan.cable.stiffness_n_m) || plan.cable.stiffness_n_m < 0.0) {
+    malformed(std::nullopt, "the cables' stiffness is no number, or negative; give it in N/m");
+  }
+  std::set<CarrierId> carriers;
+  for (const Carrier& c : plan.carriers) {
+    if (!carriers.insert(c.id).second) malformed(c.id, text("two carriers are carrier %u; number each its own", c.id));
+    if (!sound(c.attachment_b_m) || !sound(c.law.profile) || (c.law.is_projection() && !unit(c.law.direction.norm()))) {
+      malformed(c.id, text("carrier %u: its attachment or its length law is not in numbers of this world, the law's "
+                           "direction no unit vector, or its rate not p/q of the cycle's; give such numbers, a unit "
+                           "vector, and p up to %d and q up to %d",
+                           c.id, kMaxNumerator, kMaxDenominator));
+    }
+  }
+  if (!sound(plan.cycle.rate_rad_s) || !(plan.cycle.rate_rad_s > 0.0)) {
+    malformed(std::nullopt,
+              "the cycle's rate is no positive number; a plan that stands still has a rate and no amplitudes");
+  }
+  for (const Edge& e : plan.cycle.edges) {
+    if (sound(e.offset_n) && sound(e.amplitude_n) && sound(e.phase_rad)) continue;
+    malformed(std::nullopt, text("the edge from %u to %u has an offset, amplitude or phase that is no number of this "
+                                 "world; give one",
+                                 e.from, e.to));
+  }
+  if (!is_cycle(plan.cycle.edges, carriers)) {
+    malformed(std::nullopt,
+              "the edges are no cycle through every carrier; let one edge begin at each, in order of travel, the last "
+              "one back to the first carrier; two carriers have one edge, a single one has none");
+  }
 }
 
 void judge_equilibrium(const Plan& plan, std::vector<Reason>& reasons) {
@@ -217,15 +301,12 @@ void judge_carrier(const CarrierFigures& f, const Limits& limits, bool non_stop,
            f.speed_m_s.min, limits.speed_min_m_s, id, reasons);
 }
 
-void judge_formation(const Certificate& certificate, const Limits& limits, std::vector<Reason>& reasons) {
-  const Separation& s = certificate.separation;
-  if (s.first == s.second) return;  // no pair, or a motion without bounds, which has its own reason
-  if (limits.separation_min_m && s.min_m < *limits.separation_min_m) {
-    refuse(reasons, Rule::kSeparation, s.first,
-           text("carriers %u and %u come as close as %.6g m, below separation_min_m %.6g; set their altitudes or "
-                "attachments further apart, or lower the amplitudes",
-                s.first, s.second, s.min_m, *limits.separation_min_m));
-  }
+void judge_separation(const Separation& s, const Limits& limits, std::vector<Reason>& reasons) {
+  if (!limits.separation_min_m || s.min_m >= *limits.separation_min_m) return;
+  refuse(reasons, Rule::kSeparation, s.first,
+         text("carriers %u and %u come as close as %.6g m, below separation_min_m %.6g; set their altitudes or "
+              "attachments further apart, or lower the amplitudes",
+              s.first, s.second, s.min_m, *limits.separation_min_m));
 }
 
 }  // namespace gyre::mechanics

@@ -12,11 +12,17 @@
 //   projection    l = (s*(t) − u·B) / (u·q)      level: u = e_z, s* = altitude;  directional: any u, any s*
 //   free          l = l*(t)                      sine: l* oscillates;            fixed: l* constant
 //
-// Source: Franchi, Landi, Gabellieri, the level, directional-profile and two-carrier constructions.
+// A fixed length meets a profile only if s* − u·B = l u·q(t) for all t (fixed-length compatibility).
+// Source: Franchi, Landi, Gabellieri: level and directional profiles, two-carrier construction, fixed-length
+// compatibility.
 
 #include <Eigen/Core>
 
 namespace gyre::mechanics {
+
+/// What a harmonic may be made of: the polynomials behind every exact figure have their degree from it.
+inline constexpr int kMaxNumerator = 64;
+inline constexpr int kMaxDenominator = 8;
 
 /// A frequency as a multiple of the cycle's rate. Kept as whole numbers, so that a motion that is meant to be
 /// periodic is exactly periodic, after a week as after a second.

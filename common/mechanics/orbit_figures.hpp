@@ -14,15 +14,17 @@
 //       V = (sigma f)' M − sigma f M'/2, v = V / M^(3/2)    A = V' M − (3/2) V M', a = A / M^(5/2)
 //
 // (primes are d/dpsi; times the base rate once or twice for time derivatives)
-// Reference: DESIGN fact 1.
+// Reference: docs/design.md, fact 1. Source of the laws: Franchi, Landi, Gabellieri, as in length_law.hpp; a carrier at
+// constant altitude stops exactly when its cable's direction does (level stop condition).
 
 #include "common/mechanics/carrier_slice.hpp"
 #include "common/mechanics/certificate.hpp"
 
 namespace gyre::mechanics {
 
-/// Where the law has no bounded length (u·q passes through zero) or the cable goes slack, lengths, rates, speeds and
-/// altitudes are infinite; tension and cosines are always exact.
+/// Of a valid plan's slice, or one that is as sane. Where the law has no bounded length (u·q passes through zero) or
+/// the cable goes slack, lengths, rates, speeds and altitudes are infinite. Tensions are always exact, and so are
+/// cosines, but that a slack cable has no direction: then q_z may be anything, and |u·q| is 0.
 [[nodiscard]] CarrierFigures orbit_figures(const CarrierSlice& slice);
 
 }  // namespace gyre::mechanics

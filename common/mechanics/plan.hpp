@@ -10,7 +10,7 @@
 //
 //   lambda_j(t) = offset_j + amplitude_j sin(theta + phase_j)                                   (cycle parameters)
 //
-// Source: Franchi, Landi, Gabellieri; DESIGN "The mechanics in one page".
+// Source: Franchi, Landi, Gabellieri, cycle parameters; docs/design.md, The mechanics.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -68,8 +68,10 @@ struct Limits {
   std::optional<double> vertical_cosine_min;
 };
 
-/// Built by the mission reader or by hand; valid means: at least one carrier, unique ids, positive mass, and edges
-/// that are a Hamiltonian cycle over the carriers (none for one carrier, one for two). Nothing here checks it again.
+/// Built by the mission reader or by hand; valid means: at least one carrier, unique ids, a load with mass and inertia,
+/// numbers that are finite, a positive rate, and edges that are a Hamiltonian cycle over the carriers (none for one
+/// carrier, one for two). `certify` says whether it is (judgement.hpp, judge_form); whatever else takes a plan takes
+/// that for granted.
 struct Plan {
   Load load;
   double gravity_m_s2 = 9.81;

@@ -10,7 +10,17 @@
 //   t        time since the plan's epoch (theta = rate · t)     1       -       s
 //
 // Every quantity carries its exact first and second time derivative (taylor.hpp).
-// Source: Franchi, Landi, Gabellieri; equation names as in DESIGN.
+//
+// Nothing here can fail, and nothing is checked: what is asked of a valid plan's slice at a finite time is finite where
+// a motion is. Where it is not, the result says so by not being finite, and judging that is up to whoever flies it:
+//
+//   f = 0, a slack cable        force and a free law's length as ever, tension 0; its derivatives, the direction, the
+//                               position and a projection's length are NaN: a slack cable has no direction
+//   u·q = 0 under a projection  force, tension and direction as ever; length and position are infinite or NaN
+//   input that is not finite    at least the position is not, either
+//
+// Source: Franchi, Landi, Gabellieri: local force, carrier position, direction, length laws; docs/design.md, The
+// mechanics.
 
 #include <cmath>
 

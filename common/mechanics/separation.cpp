@@ -79,12 +79,11 @@ class Pair {
 
 }  // namespace
 
-Separation separation(const std::vector<Path>& paths, double begin_s, double end_s) {
-  Separation result;
-  if (paths.size() < 2) return result;
+std::optional<Separation> separation(const std::vector<Path>& paths, double begin_s, double end_s) {
+  if (paths.size() < 2) return std::nullopt;
   std::vector<Sphere> spheres;
   for (const Path& path : paths) {
-    if (!std::isfinite(path.acceleration_max_m_s2)) return {0.0, path.id, path.id};
+    if (!std::isfinite(path.acceleration_max_m_s2)) return std::nullopt;
     spheres.push_back(enclose(path, begin_s, end_s));
   }
   struct Candidate {
@@ -101,6 +100,7 @@ Separation separation(const std::vector<Path>& paths, double begin_s, double end
   std::sort(pairs.begin(), pairs.end(), [](const Candidate& a, const Candidate& b) { return a.gap < b.gap; });
 
   Least least;
+  Separation result;
   for (const auto& [gap, i, j] : pairs) {
     if (gap > 0.0 && gap * gap >= least.square()) break;  // sorted: no later pair can come closer
     const Pair pair(paths[i], paths[j]);

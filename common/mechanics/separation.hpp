@@ -10,9 +10,10 @@
 // The accelerations a are the certificate's own, exact for all time; so this is a proof, by branch and bound. A bound
 // on the first derivative alone would prove as much with thousands of times the cells.
 //
-// Reference: DESIGN fact 1 (where no polynomial is at hand).
+// Reference: docs/design.md, fact 1 (where no polynomial is at hand).
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "common/mechanics/certificate.hpp"
@@ -31,7 +32,7 @@ struct Path {
 /// Carriers that come closer than this touch: their separation is 0.
 inline constexpr double kSeparationSlack_m = 2e-7;
 
-/// Over [begin_s, end_s]. Infinite for fewer than two carriers; 0 where a carrier's motion is unbounded.
-[[nodiscard]] Separation separation(const std::vector<Path>& paths, double begin_s, double end_s);
+/// Over [begin_s, end_s]. Absent for fewer than two carriers, and where a carrier's acceleration has no bound.
+[[nodiscard]] std::optional<Separation> separation(const std::vector<Path>& paths, double begin_s, double end_s);
 
 }  // namespace gyre::mechanics

@@ -13,7 +13,7 @@
 // for every t: the residual is at most (e/2) sum max|df_i|. That is a proof; the displacement is its linear
 // consequence, found on a grid.
 //
-// Reference: DESIGN facts 4 and 6.
+// Reference: docs/design.md, facts 4 and 6.
 
 #include "common/mechanics/carrier_slice.hpp"
 #include "common/mechanics/plan.hpp"

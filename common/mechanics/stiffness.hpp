@@ -11,9 +11,11 @@
 //
 // The first bracket is the cable's elasticity along q and its pendulum stiffness across; the last term is how the
 // moment of a constant force changes when the load turns under it. The smallest generalised eigenvalue of K against
-// (m I, R J_b R') is the square of the slowest natural frequency; positive means stable.
+// (m I, R J_b R') is the square of the slowest frequency with which the load would swing if everything stood still at
+// that moment; where it is negative, the load is not pulled back then. Whether a motion is stable over its period is
+// another question, which neither sign answers.
 //
-// Reference: DESIGN fact 6.
+// Reference: docs/design.md, fact 6.
 
 #include <Eigen/Core>
 #include <vector>
@@ -25,7 +27,8 @@ namespace gyre::mechanics {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// K at one moment; rows and columns are (translation, rotation), W. `t_s` since the plan's epoch.
+/// K at one moment; rows and columns are (translation, rotation), W. `t_s` since the plan's epoch. Of cables that are
+/// taut and longer than nothing; not finite else.
 [[nodiscard]] Matrix6d load_stiffness(const Plan& plan, const std::vector<CarrierSlice>& slices, double t_s);
 
 /// Mass matrix (m I, R J_b R'), W.

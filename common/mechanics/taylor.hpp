@@ -2,7 +2,7 @@
 // Truncated Taylor arithmetic: a quantity travels with its first and second time derivative, so the paper's formulas
 // are written once, as they stand in the paper, and every derivative of them is exact.
 //
-// S is the arithmetic underneath: double to fly, an interval to prove bounds (transition_certificate.cpp).
+// S is the arithmetic underneath: double to fly, an interval to prove bounds (transition_figures.cpp).
 //
 //   a·b   (ab)' = a'b + ab'       (ab)'' = a''b + 2a'b' + ab''
 //   a/b   c = a/b                 c' = (a' − c b')/b        c'' = (a'' − 2c'b' − c b'')/b

@@ -11,7 +11,8 @@
 // A mixture is a stack: a plan at the bottom, and on it one layer per transition under way. A second transition does
 // not have to wait for the first: it lies on top, and when it is complete nothing below it counts any more.
 // All plans hold the load in the same pose, so all slices have the same attachment point.
-// Reference: DESIGN fact 3 (mixtures preserve equilibrium).
+// Where the mixed cable goes slack, the result is as in reference.hpp.
+// Reference: docs/design.md, fact 3 (mixtures preserve equilibrium).
 
 #include <array>
 #include <cstddef>
@@ -29,7 +30,7 @@ struct Layer {
   Taylor<S> weight;  ///< of this layer over everything below it; not read for the bottom layer
 };
 
-/// What a carrier has to do while transitions are under way; `layers` from the bottom up, at least one.
+/// What a carrier has to do while transitions are under way; `layers` from the bottom up, at least one (GYRE_ENSURE).
 template <class S>
 [[nodiscard]] inline BasicReference<S> evaluate_mixture(const Layer<S>* layers, std::size_t count) {
   GYRE_ENSURE(count >= 1, "a mixture has at least a bottom layer");
@@ -67,13 +68,17 @@ inline constexpr std::size_t kMaxLayers = 5;
   return complete;
 }
 
-/// The reference at `now_s`; `layers` from the bottom up, 1..kMaxLayers.
+/// The reference at `now_s`; `layers` from the bottom up. That they are 1..kMaxLayers, that each has a slice and each
+/// but the bottom a positive duration, is up to the caller (GYRE_ENSURE).
 [[nodiscard]] inline Reference evaluate_course(const TimedLayer* layers, std::size_t count, double now_s) {
-  GYRE_ENSURE(count <= kMaxLayers, "a course has a bounded number of layers");
+  GYRE_ENSURE(count >= 1 && count <= kMaxLayers, "a course has a bottom, and a bounded number of layers");
   std::array<Layer<double>, kMaxLayers> stack;
   for (std::size_t i = 0; i < count; ++i) {
+    GYRE_ENSURE(layers[i].slice != nullptr, "a course is flown whole");
     stack[i] = {layers[i].slice, now_s - layers[i].epoch_s, {}};
-    if (i > 0) stack[i].weight = smooth_step(now_s - layers[i].start_s, layers[i].duration_s);
+    if (i == 0) continue;
+    GYRE_ENSURE(layers[i].duration_s > 0.0, "a transition takes time");
+    stack[i].weight = smooth_step(now_s - layers[i].start_s, layers[i].duration_s);
   }
   const std::size_t bottom = complete_layer(layers, count, now_s);
   return evaluate_mixture(stack.data() + bottom, count - bottom);

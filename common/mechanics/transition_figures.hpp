@@ -7,7 +7,7 @@
 // greatest magnitude (winch rate: or the speed's; altitude: or the length's): a proof, not a sampling. Where cells get
 // as narrow as they may first (violent mixtures, cables near the plane of their law) it is wider, never wrong.
 //
-// Reference: DESIGN facts 1 and 3; R. E. Moore, Interval Analysis.
+// Reference: docs/design.md, facts 1 and 3; R. E. Moore, Interval Analysis.
 
 #include <vector>
 
@@ -21,7 +21,9 @@ inline constexpr double kTransitionSlack = 2e-3;
 /// same slack would cost five times the cells.
 inline constexpr double kAccelerationSlack = 1e-2;
 
-/// Over [begin_s, end_s] on the layers' clock. `direction_cosine_min` stays absent.
+/// Over [begin_s, end_s] on the layers' clock, end after begin; `layers` as for evaluate_course (GYRE_ENSURE). Where a
+/// cable may go slack, or perpendicular to its law, figures are bounded by nothing: infinite.
+/// `direction_cosine_min` stays absent.
 [[nodiscard]] CarrierFigures transition_figures(const std::vector<TimedLayer>& layers, double begin_s, double end_s);
 
 }  // namespace gyre::mechanics

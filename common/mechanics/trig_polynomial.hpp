@@ -1,8 +1,7 @@
 #pragma once
 // Trigonometric polynomials: the algebra in which every figure of a periodic motion can be written exactly.
 //
-//   T(psi) = sum over k = −N..N of c_k z^k,   z = exp(i psi),   c_(−k) = conj(c_k)                    (real for real
-//   psi)
+//   T(psi) = sum over k = −N..N of c_k z^k,   z = exp(i psi),   c_(−k) = conj(c_k)         (real for real psi)
 //
 // Sums, products and derivatives of such polynomials are such polynomials, so numerators and denominators of tensions,
 // lengths, speeds and accelerations come out of ordinary arithmetic.

@@ -19,6 +19,8 @@ namespace {
 
 namespace pb = ::gyre::mission::schema;
 using mechanics::Harmonic;
+using mechanics::kMaxDenominator;
+using mechanics::kMaxNumerator;
 using mechanics::LengthLaw;
 using mechanics::Oscillation;
 using protocol::AgentLoss;
@@ -46,8 +48,6 @@ constexpr Span kRotationDeg{0.0, 180.0, "deg"};
 
 constexpr double kUnitTolerance = 1e-6;      // of the norm of a quaternion
 constexpr double kHarmonicTolerance = 1e-9;  // relative, of a rate against a multiple of the cycle's
-constexpr int kMaxNumerator = 64;
-constexpr int kMaxDenominator = 8;
 constexpr std::size_t kMaxNameBytes = 64;
 
 /// The cycle's rate, where it has been complained about: rates cannot be judged against it.

@@ -46,10 +46,9 @@ bool sane(const mechanics::EdgePush& edge) {
 }
 
 bool sane(const mechanics::LengthLaw& law) {
-  constexpr int kLargestHarmonic = 4096;
   const mechanics::Oscillation& p = law.profile;
-  const bool rational = p.harmonic.numerator >= 0 && p.harmonic.numerator <= kLargestHarmonic &&
-                        p.harmonic.denominator >= 1 && p.harmonic.denominator <= kLargestHarmonic;
+  const bool rational = p.harmonic.numerator >= 1 && p.harmonic.numerator <= mechanics::kMaxNumerator &&
+                        p.harmonic.denominator >= 1 && p.harmonic.denominator <= mechanics::kMaxDenominator;
   return rational && unit(law.direction) && sane(p.mean) && sane(p.swing) && sane(p.phase_rad);
 }
 

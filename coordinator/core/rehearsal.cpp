@@ -27,9 +27,9 @@ bool Rehearsal::advance() {
                        return mechanics::evaluate_course(stack.data(), stack.size(), t_s).position_w_m;
                      }});
   }
-  mechanics::Certificate formation;
-  formation.separation = mechanics::separation(paths, begin_s_, end_s_);
-  mechanics::judge_formation(formation, limits_, reasons_);
+  // Absent: one carrier, or a motion without bounds, which has its own reason.
+  const auto separation = mechanics::separation(paths, begin_s_, end_s_);
+  if (separation) mechanics::judge_separation(*separation, limits_, reasons_);
   separated_ = true;
   return true;
 }

@@ -16,6 +16,12 @@ Json figure(const std::optional<double>& value) {
   return value ? figure(*value) : Json(nullptr);
 }
 
+/// A member of something that may be absent.
+template <class Whole>
+Json figure(const std::optional<Whole>& whole, double Whole::*member) {
+  return whole ? figure((*whole).*member) : Json(nullptr);
+}
+
 Json reasons_json(const std::vector<mechanics::Reason>& reasons) {
   Json out = Json::array();
   for (const mechanics::Reason& reason : reasons) {
@@ -50,20 +56,20 @@ Json certificate_json(const std::string& mission_name, const mechanics::Certific
   Json carriers = Json::array();
   for (const mechanics::CarrierFigures& carrier : certificate.carriers) carriers.push_back(carrier_json(carrier));
 
-  const mechanics::Separation& separation = certificate.separation;
-  const bool pair = std::isfinite(separation.min_m);
+  const auto& separation = certificate.separation;
+  const auto& skew = certificate.skew;
   return {{"name", mission_name},
           {"verdict", certificate.admissible() ? "admissible" : "refused"},
           {"reasons", reasons_json(certificate.reasons)},
           {"cautions", reasons_json(certificate.cautions)},
           {"period_s", figure(certificate.period_s)},
           {"wrench_error_max_n", figure(certificate.wrench_error_max_n)},
-          {"skew_budget_s", figure(certificate.skew.budget_s)},
-          {"skew_residual_n_per_s", figure(certificate.skew.residual_n_per_s)},
-          {"skew_displacement_m_per_s", figure(certificate.skew.displacement_m_per_s)},
-          {"holdover_s", figure(certificate.skew.holdover_s)},
-          {"carrier_separation_min_m", figure(separation.min_m)},
-          {"carrier_separation_pair", pair ? Json{separation.first, separation.second} : Json(nullptr)},
+          {"skew_budget_s", figure(skew, &mechanics::SkewBudget::budget_s)},
+          {"skew_residual_n_per_s", figure(skew, &mechanics::SkewBudget::residual_n_per_s)},
+          {"skew_displacement_m_per_s", figure(skew, &mechanics::SkewBudget::displacement_m_per_s)},
+          {"holdover_s", figure(skew, &mechanics::SkewBudget::holdover_s)},
+          {"carrier_separation_min_m", figure(separation, &mechanics::Separation::min_m)},
+          {"carrier_separation_pair", separation ? Json{separation->first, separation->second} : Json(nullptr)},
           {"stiffness_min_1_s2", figure(certificate.stiffness_min_1_s2)},
           {"carriers", carriers}};
 }

@@ -8,7 +8,7 @@
 
 namespace gyre::ground {
 
-/// A figure that does not exist, or is infinite, is null.
+/// A figure that does not exist, was not computed, or is infinite, is null.
 [[nodiscard]] nlohmann::ordered_json certificate_json(const std::string& mission_name,
                                                       const mechanics::Certificate& certificate);
 

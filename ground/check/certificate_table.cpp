@@ -95,16 +95,22 @@ std::string listed(const std::vector<mechanics::Reason>& reasons) {
 }
 
 std::string separation_line(const Limits& limits, const Certificate& certificate) {
-  const mechanics::Separation& separation = certificate.separation;
-  if (!std::isfinite(separation.min_m)) return "-";
+  const auto& separation = certificate.separation;
+  if (!separation) return "-";
   std::string line =
-      number_text(separation.min_m) + text(" m, carriers %u and %u", separation.first, separation.second);
+      number_text(separation->min_m) + text(" m, carriers %u and %u", separation->first, separation->second);
   if (!limits.separation_min_m) return line;
   line += " (limit >= " + number_text(*limits.separation_min_m) + ")";
-  return marked(line, separation.min_m < *limits.separation_min_m);
+  return marked(line, separation->min_m < *limits.separation_min_m);
 }
 
-std::string skew_line(const mechanics::SkewBudget& skew) {
+std::string stiffness_line(const std::optional<double>& stiffness_min_1_s2) {
+  return stiffness_min_1_s2 ? number_text(*stiffness_min_1_s2) + " 1/s^2 at its softest" : "-";
+}
+
+std::string skew_line(const std::optional<mechanics::SkewBudget>& budget) {
+  if (!budget) return "-";
+  const mechanics::SkewBudget& skew = *budget;
   if (!std::isfinite(skew.budget_s)) return "of any size";
   return "up to " + number_text(1e3 * skew.budget_s) + " ms keep the residual under " +
          text("%.0f %%", 100.0 * mechanics::kSkewShare) + " of the weight; " + number_text(skew.residual_n_per_s) +
@@ -127,7 +133,7 @@ std::string certificate_table(const std::string& mission_name, const Limits& lim
   out += "  period             " + number_text(certificate.period_s) + " s\n";
   out += "  separation         " + separation_line(limits, certificate) + "\n";
   out += "  wrench error       " + text("%.2g", certificate.wrench_error_max_n) + " N at most\n";
-  out += "  load stiffness     " + number_text(certificate.stiffness_min_1_s2) + " 1/s^2 at its softest\n";
+  out += "  load stiffness     " + stiffness_line(certificate.stiffness_min_1_s2) + "\n";
   out += "  clock skew         " + skew_line(certificate.skew) + "\n";
   if (!certificate.admissible()) out += "\nWhy, and what would cure it:\n" + listed(certificate.reasons);
   if (!certificate.cautions.empty()) out += "\nNot forbidden, but look at it:\n" + listed(certificate.cautions);

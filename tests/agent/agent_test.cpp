@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/protocol/sanity.hpp"
 #include "tests/agent/one_agent.hpp"
 
 namespace gyre::agent {
@@ -110,6 +111,31 @@ TEST_F(AgentTest, ManyLayersTurnedBackAndFrozenAreContinuous) {
   transition(kMotion, milliseconds(-300), seconds(2));
   fly(seconds(6));
   EXPECT_EQ(status_->course.base.number, kMotion);
+}
+
+TEST_F(AgentTest, SaysNothingAtTheMomentWhenItsCableWouldGoSlack) {
+  // From a force upwards to one downwards, all but through zero.
+  const auto pulls = [](double up_n) {
+    mechanics::CarrierSlice slice = mechanics::slices(mechanics::test::polygon_plan(4)).front();
+    slice.particular_force_w_n = {1e-7, 0.0, up_n};
+    slice.incoming = slice.outgoing = {};
+    slice.law = mechanics::LengthLaw::fixed(2.0);
+    return slice;
+  };
+  tell(protocol::PlanOffer{1, kTerm, {{kRest, pulls(1.0)}, {kOther, pulls(-1.0)}}});
+  course_ = Course{1, {kRest, swarm()}, {}};
+  fly(seconds(3));
+  transition(kOther, setpoint_->swarm_time + milliseconds(600) - swarm(), seconds(1));
+  const SwarmTime middle = course_->transitions.back().start + milliseconds(500);
+  bool up = false;
+  bool down = false;
+  visit_ = [&](const protocol::Setpoint& s) {
+    EXPECT_TRUE(sane(s));
+    EXPECT_GT(std::abs(gyre::seconds(s.swarm_time - middle)), 1e-3);
+    (s.swarm_time < middle ? up : down) = true;
+  };
+  fly(seconds(3));
+  EXPECT_TRUE(up && down);
 }
 
 TEST_F(AgentTest, FliesOnAloneAndSaysSo) {

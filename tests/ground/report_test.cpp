@@ -79,12 +79,31 @@ TEST(Table, EveryRuleIsNamedWithItsText) {
   EXPECT_NE(table.find("- direction cosine: carrier 7: word"), std::string::npos) << table;
 }
 
+TEST(Table, WhatWasNotComputedIsADash) {
+  mechanics::Certificate certificate = one_bad_carrier();
+  for (const char* line : {"  separation ", "  load stiffness ", "  clock skew "}) {
+    const std::string dash = line_of(certificate_table("m", {}, certificate), line);
+    EXPECT_EQ(dash.find_first_not_of(' ', std::string(line).size()), dash.size() - 1) << dash;
+    EXPECT_EQ(dash.back(), '-') << dash;
+  }
+  certificate.separation = {2.5, 3, 4};
+  certificate.stiffness_min_1_s2 = 1.5;
+  certificate.skew = mechanics::SkewBudget{1.0, 2.0, 0.5, 9.0};
+  const std::string table = certificate_table("m", {}, certificate);
+  EXPECT_NE(line_of(table, "  separation ").find("2.5 m, carriers 3 and 4"), std::string::npos) << table;
+  EXPECT_NE(line_of(table, "  load stiffness ").find("1.5 1/s^2"), std::string::npos) << table;
+  EXPECT_NE(line_of(table, "  clock skew ").find("up to 500 ms"), std::string::npos) << table;
+}
+
 TEST(Json, WhatIsInfiniteOrAbsentIsNull) {
   const nlohmann::ordered_json json = certificate_json("m", one_bad_carrier());
   EXPECT_EQ(json.at("verdict"), "refused");
   EXPECT_EQ(json.at("reasons")[0].at("rule"), "direction cosine");
   EXPECT_EQ(json.at("reasons")[0].at("carrier"), 7);
-  EXPECT_TRUE(json.at("carrier_separation_min_m").is_null());
+  for (const char* key : {"carrier_separation_min_m", "carrier_separation_pair", "stiffness_min_1_s2", "skew_budget_s",
+                          "skew_residual_n_per_s", "skew_displacement_m_per_s", "holdover_s"}) {
+    EXPECT_TRUE(json.at(key).is_null()) << key;
+  }
   const auto& carrier = json.at("carriers")[0];
   EXPECT_EQ(carrier.at("length_min_m"), 2.0);
   EXPECT_TRUE(carrier.at("length_max_m").is_null());

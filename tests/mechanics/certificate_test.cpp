@@ -75,10 +75,11 @@ RC_GTEST_PROP(Certificate, the_separation_is_below_every_sampled_distance_and_cl
       for (std::size_t k = i + 1; k < at.size(); ++k) least = std::min(least, (at[i] - at[k]).norm());
     }
   });
-  RC_ASSERT(certificate.separation.min_m <= least);
+  RC_ASSERT(certificate.separation->min_m <= least);
   // Half a step of time at twice the greatest speed is all a sample can have missed.
-  RC_ASSERT(certificate.separation.min_m >= least - speed * certificate.period_s / kSamples - 2.0 * kSeparationSlack_m);
-  RC_ASSERT(certificate.separation.first != certificate.separation.second);
+  RC_ASSERT(certificate.separation->min_m >=
+            least - speed * certificate.period_s / kSamples - 2.0 * kSeparationSlack_m);
+  RC_ASSERT(certificate.separation->first != certificate.separation->second);
 }
 
 RC_GTEST_PROP(Certificate, the_pair_it_names_attains_the_separation, ()) {
@@ -87,7 +88,7 @@ RC_GTEST_PROP(Certificate, the_pair_it_names_attains_the_separation, ()) {
   const Plan plan = random_plan(wish);
   CertifyOptions options;
   options.stiffness = false;
-  const Separation s = certify(plan, options).separation;
+  const Separation s = certify(plan, options).separation.value();
   std::vector<CarrierSlice> all = slices(plan);
   const auto distance = [&](double t_s) {
     return (evaluate(all.at(s.first - 1), t_s).position_w_m.value -

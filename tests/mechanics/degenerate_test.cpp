@@ -1,4 +1,4 @@
-// Plans at the edge of sense: nothing hangs, nothing crashes, no figure is NaN.
+// Plans at the edge of sense: nothing hangs, nothing crashes, no figure is NaN. And what there is no sense in asking.
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 
 #include "common/mechanics/certificate.hpp"
 #include "common/mechanics/rest_plan.hpp"
+#include "common/mechanics/transition.hpp"
 #include "tests/mechanics/plans.hpp"
 
 namespace gyre::mechanics::test {
@@ -15,9 +16,13 @@ namespace {
 Certificate expect_numbers(const Plan& plan) {
   for (const bool non_stop : {true, false}) {
     const Certificate c = certify(plan, {true, true, non_stop});
-    for (const double x : {c.separation.min_m, c.stiffness_min_1_s2, c.skew.residual_n_per_s, c.skew.budget_s,
-                           c.skew.displacement_m_per_s, c.skew.holdover_s}) {
-      EXPECT_FALSE(std::isnan(x));
+    EXPECT_TRUE(!c.separation || std::isfinite(c.separation->min_m));
+    EXPECT_EQ(c.skew.has_value(), c.stiffness_min_1_s2.has_value());
+    if (c.skew) {
+      for (const double x : {*c.stiffness_min_1_s2, c.skew->residual_n_per_s, c.skew->budget_s,
+                             c.skew->displacement_m_per_s, c.skew->holdover_s}) {
+        EXPECT_FALSE(std::isnan(x));
+      }
     }
     EXPECT_TRUE(std::isfinite(c.period_s));
     EXPECT_TRUE(std::isfinite(c.wrench_error_max_n));
@@ -32,6 +37,20 @@ Certificate expect_numbers(const Plan& plan) {
     }
   }
   return certify(plan);
+}
+
+TEST(Degenerate, what_is_left_out_or_has_no_value_is_absent) {
+  const Certificate whole = certify(paper_plan());
+  EXPECT_TRUE(whole.separation && whole.stiffness_min_1_s2 && whole.skew);
+  const Certificate no_pairs = certify(paper_plan(), {false, true, true});
+  EXPECT_TRUE(!no_pairs.separation && no_pairs.stiffness_min_1_s2 && no_pairs.skew);
+  const Certificate no_stiffness = certify(paper_plan(), {true, false, true});
+  EXPECT_TRUE(no_stiffness.separation && !no_stiffness.stiffness_min_1_s2 && !no_stiffness.skew);
+
+  Plan perpendicular = paper_plan();
+  perpendicular.carriers[2].law = LengthLaw::directional(Eigen::Vector3d::UnitX(), {5.0, 0.0, {}, 0.0});
+  const Certificate unbounded = certify(perpendicular);
+  EXPECT_FALSE(unbounded.separation || unbounded.stiffness_min_1_s2 || unbounded.skew);
 }
 
 TEST(Degenerate, any_number_of_carriers) {
@@ -51,7 +70,7 @@ TEST(Degenerate, attachments_in_one_line_and_in_one_point) {
   for (Carrier& carrier : plan.carriers) carrier.attachment_b_m = {0.0, 0.0, 0.3};
   const Certificate one_point = expect_numbers(plan);
   EXPECT_FALSE(one_point.admissible());
-  EXPECT_EQ(one_point.separation.min_m, 0.0);  // the carriers coincide for all time
+  EXPECT_EQ(one_point.separation->min_m, 0.0);  // the carriers coincide for all time
 }
 
 TEST(Degenerate, no_amplitude_equal_phases_and_no_motion_at_all) {
@@ -113,7 +132,7 @@ TEST(Degenerate, millimetres_and_kilometres_obey_the_same_laws) {
       EXPECT_NEAR(scaled.carriers[i].length_m.max / k, metre.carriers[i].length_m.max, 1e-9);
       EXPECT_NEAR(scaled.carriers[i].acceleration_max_m_s2 / k, metre.carriers[i].acceleration_max_m_s2, 1e-9);
     }
-    EXPECT_NEAR(scaled.separation.min_m / k, metre.separation.min_m, 1e-3);
+    EXPECT_NEAR(scaled.separation->min_m / k, metre.separation->min_m, 1e-3);
   }
 }
 
@@ -137,7 +156,96 @@ TEST(Degenerate, carriers_that_meet_or_fly_in_each_others_place) {
   plan.carriers[2].law = plan.carriers[0].law;
   for (Carrier& carrier : plan.carriers) carrier.attachment_b_m *= 1e-9;
   const Certificate close = expect_numbers(plan);
-  EXPECT_GE(close.separation.min_m, 0.0);
+  EXPECT_GE(close.separation->min_m, 0.0);
+}
+
+// -------------------------------------------------------------------------------------------------- reference, slices
+
+CarrierSlice hanging(const LengthLaw& law) {
+  CarrierSlice slice = slices(paper_plan()).front();
+  slice.law = law;
+  return slice;
+}
+
+bool finite(const TaylorVector<double>& v) {
+  return v.value.allFinite() && v.first.allFinite() && v.second.allFinite();
+}
+
+TEST(Senseless, a_slack_cable_has_a_force_and_no_direction) {
+  for (const LengthLaw& law : {LengthLaw::fixed(1.0), LengthLaw::level(1.0)}) {
+    CarrierSlice slice = hanging(law);
+    slice.particular_force_w_n.setZero();
+    slice.incoming.amplitude_n = slice.outgoing.amplitude_n = 0.0;
+    EXPECT_EQ(force(slice, 0.3).value, Eigen::Vector3d(0.0, 0.0, 0.0));
+    const Reference r = evaluate(slice, 0.3);
+    EXPECT_TRUE(finite(r.force_w_n));
+    EXPECT_EQ(r.tension_n.value, 0.0);
+    EXPECT_TRUE(r.direction_w.value.array().isNaN().all());
+    EXPECT_TRUE(r.position_w_m.value.array().isNaN().all());
+    EXPECT_EQ(std::isnan(r.length_m.value), law.is_projection());
+  }
+}
+
+TEST(Senseless, a_cable_across_its_law_has_no_finite_length) {
+  CarrierSlice slice = hanging(LengthLaw::level(1.0));
+  slice.particular_force_w_n = {1.0, 0.0, 0.0};
+  slice.incoming.amplitude_n = slice.outgoing.amplitude_n = 0.0;
+  const Reference r = evaluate(slice, 0.3);
+  EXPECT_EQ(r.direction_w.value, Eigen::Vector3d::UnitX().eval());
+  EXPECT_EQ(r.tension_n.value, 1.0);
+  EXPECT_FALSE(std::isfinite(r.length_m.value));
+  EXPECT_FALSE(r.position_w_m.value.allFinite());
+}
+
+TEST(Senseless, what_is_no_number_makes_no_position) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const LengthLaw& law : {LengthLaw::sine({1.0, 0.1, {}, 0.0}), LengthLaw::level(1.0)}) {
+    for (const double nonsense : {kNan, kInfinity, -kInfinity}) {
+      const CarrierSlice good = hanging(law);
+      EXPECT_TRUE(evaluate(good, 0.3).position_w_m.value.allFinite());
+      EXPECT_FALSE(evaluate(good, nonsense).position_w_m.value.allFinite());
+      const TimedLayer layer{&good};
+      EXPECT_FALSE(evaluate_course(&layer, 1, nonsense).position_w_m.value.allFinite());
+      for (double EdgePush::*number : {&EdgePush::offset_n, &EdgePush::amplitude_n, &EdgePush::phase_rad}) {
+        CarrierSlice bad = good;
+        bad.incoming.*number = nonsense;
+        EXPECT_FALSE(evaluate(bad, 0.3).position_w_m.value.allFinite());
+      }
+      CarrierSlice bad = good;
+      bad.rate_rad_s = nonsense;
+      EXPECT_FALSE(evaluate(bad, 0.3).position_w_m.value.allFinite());
+      bad = good;
+      bad.law.profile.mean = nonsense;
+      EXPECT_FALSE(evaluate(bad, 0.3).position_w_m.value.allFinite());
+      bad = good;
+      bad.attachment_w_m.z() = nonsense;
+      EXPECT_FALSE(evaluate(bad, 0.3).position_w_m.value.allFinite());
+    }
+  }
+}
+
+TEST(Senseless, nobody_has_no_slices) {
+  Plan plan = paper_plan();
+  plan.carriers.clear();
+  plan.cycle.edges.clear();
+  EXPECT_TRUE(slices(plan).empty());
+}
+
+TEST(SenselessDeathTest, an_edge_to_a_stranger_and_a_course_of_nothing_are_bugs) {
+  Plan plan = paper_plan();
+  plan.cycle.edges[1].to = 9;
+  EXPECT_DEATH(static_cast<void>(slices(plan)), "both ends of an edge");
+
+  const CarrierSlice slice = hanging(LengthLaw::level(1.0));
+  const std::vector<TimedLayer> layers(kMaxLayers + 1, {&slice, 0.0, 0.0, 1.0});
+  const auto evaluated = [](const std::vector<TimedLayer>& course) {
+    static_cast<void>(evaluate_course(course.data(), course.size(), 0.0));
+  };
+  EXPECT_DEATH(evaluated({}), "a course has a bottom");
+  EXPECT_DEATH(evaluated(layers), "a bounded number of layers");
+  EXPECT_DEATH(evaluated({{}}), "flown whole");
+  EXPECT_DEATH(evaluated({{&slice}, {&slice, 0.0, 0.0, 0.0}}), "takes time");
 }
 
 }  // namespace

@@ -266,8 +266,8 @@ TEST(Rest, it_is_the_centre_of_the_orbits_where_the_limits_allow) {
 TEST(Rest, it_is_on_the_orbits_where_the_centre_is_too_close) {
   Plan plan = polygon_plan(3);
   for (Carrier& carrier : plan.carriers) carrier.attachment_b_m.head<2>() *= 0.01;  // a small load, wide circles
-  const double in_flight = certify(plan).separation.min_m;
-  const double at_centre = certify(rest_plan(plan), {true, false, false}).separation.min_m;
+  const double in_flight = certify(plan).separation->min_m;
+  const double at_centre = certify(rest_plan(plan), {true, false, false}).separation->min_m;
   ASSERT_GT(in_flight, at_centre);
   plan.limits.separation_min_m = 0.5 * (in_flight + at_centre);
   const Plan rest = rest_plan(plan);

@@ -91,21 +91,25 @@ TEST(Sanity, Beacon) {
 
 TEST(Sanity, PlanOffer) {
   const auto slice = [](PlanOffer& o) -> mechanics::CarrierSlice& { return o.slices[0].slice; };
-  expect_each_refused<PlanOffer>(good_offer(),
-                                 {
-                                     [](PlanOffer& o) { o.carrier = 0; },
-                                     [](PlanOffer& o) { o.carrier = kMaxCarrierId + 1; },
-                                     [](PlanOffer& o) { o.slices[0].number = {}; },
-                                     [](PlanOffer& o) { o.slices.resize(kMaxPlans + 1, o.slices[0]); },
-                                     [&](PlanOffer& o) { ++slice(o).id; },
-                                     [&](PlanOffer& o) { slice(o).rate_rad_s = 0.0; },
-                                     [&](PlanOffer& o) { slice(o).cable_stiffness_n_m = -1.0; },
-                                     [&](PlanOffer& o) { slice(o).incoming.direction *= 2.0; },
-                                     [&](PlanOffer& o) { slice(o).law.direction.setZero(); },
-                                     [&](PlanOffer& o) { slice(o).law.profile.harmonic.denominator = 0; },
-                                     [&](PlanOffer& o) { slice(o).law.profile.harmonic.numerator = -1; },
-                                     [&](PlanOffer& o) { slice(o).law.profile.harmonic.numerator = 1 << 20; },
-                                 });
+  expect_each_refused<PlanOffer>(
+      good_offer(),
+      {
+          [](PlanOffer& o) { o.carrier = 0; },
+          [](PlanOffer& o) { o.carrier = kMaxCarrierId + 1; },
+          [](PlanOffer& o) { o.slices[0].number = {}; },
+          [](PlanOffer& o) { o.slices.resize(kMaxPlans + 1, o.slices[0]); },
+          [&](PlanOffer& o) { ++slice(o).id; },
+          [&](PlanOffer& o) { slice(o).rate_rad_s = 0.0; },
+          [&](PlanOffer& o) { slice(o).cable_stiffness_n_m = -1.0; },
+          [&](PlanOffer& o) { slice(o).incoming.direction *= 2.0; },
+          [&](PlanOffer& o) { slice(o).law.direction.setZero(); },
+          [&](PlanOffer& o) { slice(o).law.profile.harmonic.denominator = 0; },
+          [&](PlanOffer& o) { slice(o).law.profile.harmonic.denominator = mechanics::kMaxDenominator + 1; },
+          [&](PlanOffer& o) { slice(o).law.profile.harmonic.numerator = -1; },
+          [&](PlanOffer& o) { slice(o).law.profile.harmonic.numerator = 0; },
+          [&](PlanOffer& o) { slice(o).law.profile.harmonic.numerator = mechanics::kMaxNumerator + 1; },
+          [&](PlanOffer& o) { slice(o).law.profile.harmonic.numerator = 1 << 20; },
+      });
   expect_numbers_refused<PlanOffer>(good_offer(),
                                     {
                                         [&](PlanOffer& o) -> double& { return slice(o).attachment_w_m.y(); },

@@ -38,6 +38,11 @@ bool plain(const protocol::Course& course) {
                       [](const protocol::Transition& t) { return t.stage == Stage::kGo; });
 }
 
+bool finite(const protocol::Setpoint& s) {
+  return s.position_w_m.allFinite() && s.velocity_w_m_s.allFinite() && s.acceleration_w_m_s2.allFinite() &&
+         s.direction_w.allFinite() && std::isfinite(s.winch_length_m + s.winch_rate_m_s + s.winch_acceleration_m_s2);
+}
+
 /// Where a carrier is `age_s` after it said so.
 Command command_of(const protocol::CarrierState& s, double age_s) {
   return {{s.position_w_m + age_s * s.velocity_w_m_s, s.velocity_w_m_s, Eigen::Vector3d::Zero()},
@@ -81,7 +86,7 @@ void Agent::on(LocalTime now, const Tick& /*tick*/, Outputs& out) {
     const auto r = reference(course_, *time);
     if (r && back_at_the_vehicle(now)) {
       const protocol::Setpoint s = setpoint(*time, *r);
-      if (sane(s)) out.setpoint = s;  // where a mixture's forces cancel, the cable has no direction to be flown
+      if (finite(s)) out.setpoint = s;  // where a mixture's forces cancel, the cable has no direction to be flown
     }
   }
   const bool alone = coordinator_.ever_heard() && coordinator_.silent(now);

@@ -19,7 +19,7 @@
 // The last term makes |h| = 1 an attractor, so that a multistep integrator needs no renormalisation, which would cost
 // it its history; R is that of h/|h|, so the term changes no motion.
 //
-// Stiff: with the paper's load and cables the fastest mode is near 6e5 1/s. The Jacobian is exact, slack included.
+// Stiff: with the paper's load and cables the fastest mode is at 3.4e5 1/s. The Jacobian is exact, slack included.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

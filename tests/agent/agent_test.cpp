@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "common/protocol/sanity.hpp"
 #include "tests/agent/one_agent.hpp"
 
 namespace gyre::agent {
@@ -114,10 +113,10 @@ TEST_F(AgentTest, ManyLayersTurnedBackAndFrozenAreContinuous) {
 }
 
 TEST_F(AgentTest, SaysNothingAtTheMomentWhenItsCableWouldGoSlack) {
-  // From a force upwards to one downwards, all but through zero.
+  // From a force upwards to one downwards, through zero half-way.
   const auto pulls = [](double up_n) {
     mechanics::CarrierSlice slice = mechanics::slices(mechanics::test::polygon_plan(4)).front();
-    slice.particular_force_w_n = {1e-7, 0.0, up_n};
+    slice.particular_force_w_n = {0.0, 0.0, up_n};
     slice.incoming = slice.outgoing = {};
     slice.law = mechanics::LengthLaw::fixed(2.0);
     return slice;
@@ -130,7 +129,7 @@ TEST_F(AgentTest, SaysNothingAtTheMomentWhenItsCableWouldGoSlack) {
   bool up = false;
   bool down = false;
   visit_ = [&](const protocol::Setpoint& s) {
-    EXPECT_TRUE(sane(s));
+    EXPECT_TRUE(s.position_w_m.allFinite() && s.direction_w.allFinite() && std::isfinite(s.winch_length_m));
     EXPECT_GT(std::abs(gyre::seconds(s.swarm_time - middle)), 1e-3);
     (s.swarm_time < middle ? up : down) = true;
   };

@@ -39,7 +39,7 @@ TEST(Separation, a_fall_with_all_of_the_acceleration_after_the_last_midpoint_is_
     return Taylor<double>{1.0 + kBack_m - 0.5 * kAcceleration_m_s2 * fallen_s * fallen_s,
                           -kAcceleration_m_s2 * fallen_s, -kAcceleration_m_s2};
   });
-  const Separation s = separation({still(1, 0.0), falling}, 0.0, kEnd_s);
+  const Separation s = separation({still(1, 0.0), falling}, 0.0, kEnd_s).value();
   EXPECT_NEAR(s.min_m, 1.0 + kBack_m - 0.5 * kAcceleration_m_s2 * kFall_s * kFall_s, 2.0 * kSeparationSlack_m);
 }
 
@@ -51,7 +51,7 @@ TEST(Separation, a_visit_between_two_samples_of_its_sphere_is_found) {
     const Taylor<double> swing = oscillation(0.5, -0.5, 2.0 * kPi, 0.5 * kPi, t_s - kLeaves_s);
     return constant(3.0) - kVisit_m * swing;
   });
-  const Separation s = separation({still(1, 0.0), still(2, 1.0), visitor}, 0.0, kEnd_s);
+  const Separation s = separation({still(1, 0.0), still(2, 1.0), visitor}, 0.0, kEnd_s).value();
   EXPECT_NEAR(s.min_m, 0.5, 2.0 * kSeparationSlack_m);
   EXPECT_EQ(s.first, 1U);
   EXPECT_EQ(s.second, 3U);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "common/mechanics/rest_plan.hpp"
@@ -234,6 +235,19 @@ TEST_F(FlightTest, TheLoadIsHeldToTheMissionsTolerance) {
   load.position_w_m.x() += mission.load_tolerance.displacement_max_m;
   flight.record.see(load, LocalTime(from_seconds(50.0)));
   EXPECT_EQ(violations().find("load: displaced by 15 mm, the mission allows 10 mm"), 0U) << violations();
+}
+
+TEST_F(FlightTest, NonsenseConfirmsNothing) {
+  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+  FlightRecord record(mission.plan);
+  protocol::LoadState load = flight.load(50.0);
+  load.position_w_m.x() = kNowhere;
+  record.see(load, LocalTime(from_seconds(50.0)));
+  protocol::CarrierState state = flight.state(engaging(), 0, 40.0);
+  state.tension_n = kNowhere;
+  record.see(state, true);
+  EXPECT_EQ(record.load().samples, 0U);
+  EXPECT_EQ(record.carriers()[0].motion.samples, 0U);
 }
 
 TEST_F(FlightTest, ATurnIsSeenWhicheverSignTheQuaternionHas) {

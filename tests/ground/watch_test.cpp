@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "ground/swarm/account_text.hpp"
@@ -112,6 +112,15 @@ TEST_F(WatchTest, SaysWhatIsWrong) {
   load_.orientation_w_b = Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitX());
   see_load();
   EXPECT_EQ(complaint(), "the load is turned by 0.573 degrees, the mission allows 0.1");
+}
+
+TEST_F(WatchTest, ALoadThatIsNowhereIsNotCalm) {
+  hear_all();
+  load_.position_w_m.x() = std::numeric_limits<double>::quiet_NaN();
+  now_ += milliseconds(501);
+  hear_all();
+  EXPECT_EQ(complaint(), "nobody tells where the load is");
+  EXPECT_EQ(account().load.samples, 0U);
 }
 
 TEST_F(WatchTest, KeepsEveryPeakForOneAccount) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/angle.hpp"
+#include "common/protocol/sanity.hpp"
 
 namespace gyre::ground {
 
@@ -23,13 +24,14 @@ FlightRecord::FlightRecord(const mechanics::Plan& plan)
 void FlightRecord::see(const protocol::CarrierState& state, bool motion_proper) {
   const auto record =
       std::find_if(carriers_.begin(), carriers_.end(), [&](const CarrierRecord& r) { return r.id == state.carrier; });
-  if (record == carriers_.end()) return;
+  if (record == carriers_.end() || !sane(state)) return;
   record->whole.include(state);
   if (motion_proper) record->motion.include(state);
   ++timing_.carrier_states;
 }
 
 void FlightRecord::see(const protocol::LoadState& state, LocalTime arrived) {
+  if (!sane(state)) return;
   load_.displacement_now_m = (state.position_w_m - position_w_m_).norm();
   load_.rotation_now_deg = degrees(state.orientation_w_b.angularDistance(orientation_w_b_));
   load_.displacement_max_m = std::max(load_.displacement_max_m, load_.displacement_now_m);

@@ -54,7 +54,8 @@ class FlightRecord {
  public:
   explicit FlightRecord(const mechanics::Plan& plan);
 
-  /// `motion_proper`: no transition is under way. A carrier that is not of this mission is not recorded.
+  /// `motion_proper`: no transition is under way. A carrier that is not of this mission is not recorded,
+  /// nonsense of anybody (protocol/sanity.hpp) neither.
   void see(const protocol::CarrierState& state, bool motion_proper);
   void see(const protocol::LoadState& state, LocalTime arrived);
   void see(const protocol::AgentStatus& status);

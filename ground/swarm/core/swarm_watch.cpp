@@ -5,6 +5,7 @@
 
 #include "common/base/angle.hpp"
 #include "common/base/text.hpp"
+#include "common/protocol/sanity.hpp"
 #include "common/protocol/term.hpp"
 #include "ground/swarm/core/course_line.hpp"
 
@@ -55,6 +56,7 @@ void SwarmWatch::see(const protocol::Health& health, LocalTime /*arrived*/) {
 }
 
 void SwarmWatch::see(const protocol::LoadState& load, LocalTime arrived) {
+  if (!sane(load)) return;  // whatever is not a number is not far away either
   load_heard_.heard(arrived);
   displacement_now_m_ = (load.position_w_m - load_.position_w_m).norm();
   rotation_now_deg_ = degrees(load.orientation_w_b.angularDistance(load_.orientation_w_b));

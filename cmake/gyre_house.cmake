@@ -51,10 +51,10 @@ function(gyre_executable name)
   target_precompile_headers(${name} REUSE_FROM gyre_headers)
 endfunction()
 
-# gyre_test(NAME SOURCES... USES... [TIMEOUT s] [LABELS ...]): a GoogleTest program, one ctest entry per program.
-# Its room, the folder's name under tests/, is always among its labels: `ctest -L mechanics`.
+# gyre_test(NAME SOURCES... USES... [TIMEOUT s]): a GoogleTest program, one ctest entry per program.
+# Its room, the folder's name under tests/, is its label: `ctest -L mechanics`.
 function(gyre_test name)
-  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;USES;LABELS" ${ARGN})
+  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;USES" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_USES} gyre_house GTest::gtest_main)
   target_precompile_headers(${name} REUSE_FROM gyre_test_headers)
@@ -65,10 +65,8 @@ function(gyre_test name)
     set(arg_TIMEOUT 120)
   endif()
   file(RELATIVE_PATH room ${CMAKE_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
-  set(labels ${room} ${arg_LABELS})
-  list(REMOVE_DUPLICATES labels)
-  set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${labels}")
-  if("dds" IN_LIST labels)
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS ${room})
+  if(room STREQUAL "dds")
     set_tests_properties(${name} PROPERTIES RUN_SERIAL ON)  # real time on few cores: alone on the machine
   endif()
 endfunction()

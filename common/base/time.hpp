@@ -4,7 +4,6 @@
 // Neither can be read here: a core is told the time, it never asks. Only mains read a clock.
 
 #include <chrono>
-#include <cstdint>
 
 namespace gyre {
 
@@ -33,9 +32,6 @@ using SwarmTime = SwarmClock::time_point;
 
 /// Seventy years: no clock here shows more, and the difference of two differences within it cannot overflow.
 inline constexpr Duration kLongest = std::chrono::hours(24 * 365 * 70);
-
-/// Before anything ever happened, on a clock that may well start below zero.
-inline constexpr LocalTime kLongAgo{-kLongest};
 
 /// Whether arithmetic on a time is safe; what others say may be anything.
 template <class Clock>

@@ -16,7 +16,6 @@ class Liveness {
   explicit Liveness(Duration timeout) : timeout_(timeout) {}
 
   void heard(LocalTime now) { last_ = now; }
-  void forget() { last_.reset(); }
 
   [[nodiscard]] std::optional<LocalTime> last() const { return last_; }
   [[nodiscard]] bool ever_heard() const { return last_.has_value(); }

@@ -79,13 +79,6 @@ bool sane(const AgentStatus& status) {
          sane(status.course) && status.accepted.size() <= kMaxPlans;
 }
 
-bool sane(const Setpoint& s) {
-  return sane(s.carrier) && sane(s.swarm_time) && sane(s.position_w_m) && sane(s.velocity_w_m_s) &&
-         sane(s.acceleration_w_m_s2) && unit(s.direction_w) && sane(s.tension_n) && s.tension_n >= 0.0 &&
-         sane(s.cable_length_m) && s.cable_length_m > 0.0 && sane(s.winch_length_m) && s.winch_length_m > 0.0 &&
-         sane(s.winch_rate_m_s) && sane(s.winch_acceleration_m_s2);
-}
-
 bool sane(const CarrierState& s) {
   return sane(s.carrier) && sane(s.position_w_m) && sane(s.velocity_w_m_s) && sane(s.tension_n) &&
          sane(s.cable_length_m) && sane(s.winch_length_m) && sane(s.winch_rate_m_s);

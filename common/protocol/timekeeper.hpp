@@ -28,8 +28,6 @@
 // References: D. L. Mills, RFC 5905 (on-wire protocol, clock filter); R. E. Kalman, 1960.
 
 #include <array>
-#include <cstdint>
-#include <optional>
 
 #include "common/base/time.hpp"
 

@@ -1,7 +1,6 @@
 // How the course changes: what the coordinator wants next, and each transition on its way to being flown.
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/base/text.hpp"
 #include "common/mechanics/frozen_slice.hpp"

@@ -4,8 +4,6 @@
 //
 // A rehearsal is done one carrier at a time, because a proof takes tens of milliseconds and the beacon must not wait.
 
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "common/mechanics/certificate.hpp"

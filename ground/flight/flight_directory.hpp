@@ -20,7 +20,6 @@ class FlightDirectory {
   FlightDirectory& operator=(const FlightDirectory&) = delete;
 
   [[nodiscard]] const std::string& path() const { return path_; }
-  [[nodiscard]] bool kept() const { return kept_; }
   void keep() { kept_ = true; }
 
  private:

@@ -29,11 +29,6 @@ std::vector<Supervisor::Ended> Supervisor::collect() {
   return news;
 }
 
-bool Supervisor::running(const std::string& name) {
-  Member* const member = find(name);
-  return member != nullptr && !member->process.ended();
-}
-
 void Supervisor::send(const std::string& name, int signal) {
   if (Member* const member = find(name)) member->process.send(signal);
 }

@@ -38,7 +38,6 @@ class Supervisor {
   /// Those that have ended since the last call.
   [[nodiscard]] std::vector<Ended> collect();
 
-  [[nodiscard]] bool running(const std::string& name);
   void send(const std::string& name, int signal);
 
   /// Ends all that still run. Returns the names of those that did not end when asked and had to be killed.

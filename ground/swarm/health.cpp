@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "common/dds/node.hpp"
 #include "common/program/program.hpp"

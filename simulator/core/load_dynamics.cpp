@@ -1,7 +1,6 @@
 #include "simulator/core/load_dynamics.hpp"
 
 #include <Eigen/LU>
-#include <cmath>
 
 #include "common/base/ensure.hpp"
 #include "common/mechanics/grasp.hpp"

@@ -146,12 +146,8 @@ struct LoadIntegrator::Solver {
     IntegratorStatistics out;
     CVodeGetNumSteps(cvode.get(), &out.steps);
     CVodeGetNumRhsEvals(cvode.get(), &out.evaluations);
-    CVodeGetNumJacEvals(cvode.get(), &out.jacobians);
-    CVodeGetNumErrTestFails(cvode.get(), &out.error_test_failures);
     out.steps += past.steps;
     out.evaluations += past.evaluations;
-    out.jacobians += past.jacobians;
-    out.error_test_failures += past.error_test_failures;
     return out;
   }
 
@@ -177,8 +173,6 @@ LoadIntegrator::LoadIntegrator(LoadDynamics dynamics, const LoadMotion& start, d
     : solver_(std::make_unique<Solver>(std::move(dynamics), start, start_s, std::move(surroundings))) {}
 
 LoadIntegrator::~LoadIntegrator() = default;
-LoadIntegrator::LoadIntegrator(LoadIntegrator&&) noexcept = default;
-LoadIntegrator& LoadIntegrator::operator=(LoadIntegrator&&) noexcept = default;
 
 std::optional<Error> LoadIntegrator::advance_to(double t_s) {
   Solver& s = *solver_;

@@ -24,16 +24,12 @@ using SurroundingsAt = std::function<void(double t_s, Surroundings& out)>;
 struct IntegratorStatistics {
   long steps = 0;
   long evaluations = 0;
-  long jacobians = 0;
-  long error_test_failures = 0;
 };
 
 class LoadIntegrator {
  public:
   LoadIntegrator(LoadDynamics dynamics, const LoadMotion& start, double start_s, SurroundingsAt surroundings);
   ~LoadIntegrator();
-  LoadIntegrator(LoadIntegrator&&) noexcept;
-  LoadIntegrator& operator=(LoadIntegrator&&) noexcept;
 
   /// Integrates to exactly t (never beyond: inputs after t need not exist yet). When CVODE gives up, it is started
   /// afresh from the motion before the call; when it gives up again, this returns why, and the motion is as before the

@@ -5,12 +5,16 @@
 #include <map>
 #include <utility>
 
-#include "common/base/ensure.hpp"
 #include "common/base/text.hpp"
 #include "common/mechanics/reference.hpp"
 #include "common/mechanics/rest_plan.hpp"
 #include "common/protocol/liveness.hpp"
 #include "simulator/core/age_judge.hpp"
+#include "simulator/core/carrier_follower.hpp"
+#include "simulator/core/load_integrator.hpp"
+#include "simulator/core/setpoint_judge.hpp"
+#include "simulator/core/winch.hpp"
+#include "simulator/core/wind.hpp"
 
 namespace gyre::simulator {
 namespace {
@@ -244,7 +248,6 @@ Result<Simulator> Simulator::create(const mechanics::Plan& plan, const Simulatio
 Simulator::Simulator(std::unique_ptr<World> world) : world_(std::move(world)) {}
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
-Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
 Outputs Simulator::step(LocalTime now, const Event& event) {
   Outputs out;

@@ -18,7 +18,7 @@
 // equilibrium. A carrier without setpoints stays there. When CVODE fails twice on a tick, the load is held still over
 // that tick and starts afresh from there; that is reported and is the only untrue motion there is.
 
-#include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -29,12 +29,8 @@
 #include "common/base/time.hpp"
 #include "common/mechanics/plan.hpp"
 #include "common/protocol/messages.hpp"
-#include "simulator/core/carrier_follower.hpp"
-#include "simulator/core/load_integrator.hpp"
-#include "simulator/core/setpoint_judge.hpp"
+#include "simulator/core/load_dynamics.hpp"
 #include "simulator/core/simulation_settings.hpp"
-#include "simulator/core/winch.hpp"
-#include "simulator/core/wind.hpp"
 
 namespace gyre::simulator {
 
@@ -81,7 +77,6 @@ class Simulator {
                                                 LocalTime start);
   ~Simulator();
   Simulator(Simulator&&) noexcept;
-  Simulator& operator=(Simulator&&) noexcept;
 
   /// `now` of an Advance never decreases; for a setpoint it is the time it arrived, which may be before the last
   /// Advance.

@@ -4,16 +4,13 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "common/dds/node.hpp"
 #include "ground/flight/child_process.hpp"

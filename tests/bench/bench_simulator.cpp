@@ -7,7 +7,6 @@
 
 #include "common/mechanics/rest_plan.hpp"
 #include "common/mechanics/transition.hpp"
-#include "simulator/core/planned_surroundings.hpp"
 #include "simulator/core/simulator.hpp"
 #include "tests/simulator/rigs.hpp"
 
@@ -35,7 +34,7 @@ void fly(benchmark::State& state, const mechanics::Plan& plan, const Surrounding
 }
 
 void paper_period(benchmark::State& state) {
-  fly(state, rigs::paper(), planned_surroundings(rigs::paper(), Stretch::kCompensated));
+  fly(state, rigs::paper(), rigs::planned(rigs::paper(), rigs::Stretch::kCompensated));
 }
 BENCHMARK(paper_period)->Unit(benchmark::kMillisecond);
 
@@ -43,7 +42,7 @@ void paper_period_floor_standing_carriers(benchmark::State& state) {
   const mechanics::Plan rest = mechanics::rest_plan(rigs::paper());
   Surroundings still;
   still.anchors.resize(rest.carriers.size());
-  planned_surroundings(rest, Stretch::kCompensated)(0.0, still);
+  rigs::planned(rest, rigs::Stretch::kCompensated)(0.0, still);
   fly(state, rest, rigs::fixed(still.anchors));
 }
 BENCHMARK(paper_period_floor_standing_carriers)->Unit(benchmark::kMillisecond);

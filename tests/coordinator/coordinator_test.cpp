@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "common/mechanics/rest_plan.hpp"
 #include "common/protocol/term.hpp"
 #include "swarm_of_agents.hpp"
 #include "tests/mechanics/plans.hpp"

@@ -6,7 +6,6 @@
 #include <rapidcheck/gtest.h>
 
 #include <cstdlib>
-#include <limits>
 #include <string>
 #include <vector>
 

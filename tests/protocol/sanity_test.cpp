@@ -37,12 +37,6 @@ AgentStatus good_status() {
   s.course = good_course();
   return s;
 }
-Setpoint good_setpoint() {
-  Setpoint s;
-  s.carrier = 1;
-  s.cable_length_m = s.winch_length_m = 1.0;
-  return s;
-}
 CarrierState good_state() {
   CarrierState s;
   s.carrier = kMaxCarrierId;
@@ -138,29 +132,6 @@ TEST(Sanity, AgentStatus) {
                                                       [](AgentStatus& s) { s.course.base.epoch = kNever; },
                                                       [](AgentStatus& s) { s.accepted.resize(kMaxPlans + 1); },
                                                   });
-}
-
-TEST(Sanity, Setpoint) {
-  expect_each_refused<Setpoint>(good_setpoint(), {
-                                                     [](Setpoint& s) { s.carrier = 0; },
-                                                     [](Setpoint& s) { s.swarm_time = kNever; },
-                                                     [](Setpoint& s) { s.direction_w *= 1.01; },
-                                                     [](Setpoint& s) { s.tension_n = -1.0; },
-                                                     [](Setpoint& s) { s.cable_length_m = 0.0; },
-                                                     [](Setpoint& s) { s.winch_length_m = 0.0; },
-                                                 });
-  expect_numbers_refused<Setpoint>(good_setpoint(),
-                                   {
-                                       [](Setpoint& s) -> double& { return s.position_w_m.x(); },
-                                       [](Setpoint& s) -> double& { return s.velocity_w_m_s.y(); },
-                                       [](Setpoint& s) -> double& { return s.acceleration_w_m_s2.z(); },
-                                       [](Setpoint& s) -> double& { return s.direction_w.x(); },
-                                       [](Setpoint& s) -> double& { return s.tension_n; },
-                                       [](Setpoint& s) -> double& { return s.cable_length_m; },
-                                       [](Setpoint& s) -> double& { return s.winch_length_m; },
-                                       [](Setpoint& s) -> double& { return s.winch_rate_m_s; },
-                                       [](Setpoint& s) -> double& { return s.winch_acceleration_m_s2; },
-                                   });
 }
 
 TEST(Sanity, States) {

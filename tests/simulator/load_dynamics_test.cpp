@@ -9,8 +9,6 @@
 
 #include "common/base/angle.hpp"
 #include "common/base/random_stream.hpp"
-#include "common/mechanics/grasp.hpp"
-#include "simulator/core/planned_surroundings.hpp"
 #include "tests/simulator/rigs.hpp"
 
 namespace gyre::simulator {
@@ -239,7 +237,7 @@ TEST(LoadDynamics, JacobianIsTheDerivativeOfTheDerivative) {
 TEST(LoadDynamics, ThePapersLoadIsStiff) {
   const mechanics::Plan plan = rigs::paper();
   const LoadDynamics dynamics(rigid_load(plan));
-  const SurroundingsAt planned = planned_surroundings(plan, Stretch::kCompensated);
+  const SurroundingsAt planned = rigs::planned(plan, rigs::Stretch::kCompensated);
   Surroundings surroundings;
   surroundings.anchors.resize(4);
   double fastest_1_s = 0.0;

@@ -6,6 +6,7 @@
 
 #include "common/base/angle.hpp"
 #include "common/mechanics/plan.hpp"
+#include "common/mechanics/reference.hpp"
 #include "simulator/core/load_integrator.hpp"
 
 namespace gyre::simulator::rigs {
@@ -52,6 +53,26 @@ inline SurroundingsAt fixed(std::vector<Anchor> anchors, const Eigen::Vector3d& 
   return [anchors = std::move(anchors), force_w_n](double /*t_s*/, Surroundings& out) {
     out.anchors = anchors;
     out.force_w_n = force_w_n;
+  };
+}
+
+enum class Stretch {
+  kCompensated,  ///< the winch has paid out l − s/k, so that the stretched cable is l long
+  kIgnored,      ///< the winch has paid out l, and the load sags
+};
+
+/// A plan flown perfectly: every carrier and every winch exactly where the plan has them, at every moment; t = 0 is its
+/// epoch. What remains is the load's own dynamics on elastic cables.
+inline SurroundingsAt planned(const mechanics::Plan& plan, Stretch stretch) {
+  const double compliance_m_n = stretch == Stretch::kCompensated ? 1.0 / plan.cable.stiffness_n_m : 0.0;
+  return [slices = mechanics::slices(plan), compliance_m_n](double t_s, Surroundings& out) {
+    for (std::size_t i = 0; i < slices.size(); ++i) {
+      const mechanics::Reference reference = mechanics::evaluate(slices[i], t_s);
+      // l0 = l − s / k
+      const mechanics::Taylor<double> unstretched_m = reference.length_m - compliance_m_n * reference.tension_n;
+      out.anchors[i] = {reference.position_w_m.value, reference.position_w_m.first, unstretched_m.value,
+                        unstretched_m.first};
+    }
   };
 }
 

@@ -15,7 +15,6 @@
 // the transition's own pace too. Agents that hold different courses add at most (share that is half applied) ·
 // (greatest change of forces between any two plans). Nothing else may contribute: that is the check.
 
-#include <deque>
 #include <string>
 #include <vector>
 

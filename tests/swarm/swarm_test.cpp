@@ -6,9 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <iostream>
 
-#include "common/base/text.hpp"
 #include "tests/swarm/flight.hpp"
 
 namespace gyre::swarm {

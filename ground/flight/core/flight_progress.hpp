@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "common/base/time.hpp"
 #include "ground/flight/core/flight_monitor.hpp"
 #include "ground/flight/core/flight_record.hpp"
 

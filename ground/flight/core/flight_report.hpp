@@ -5,7 +5,6 @@
 // of all it is made of (flight_certificate.hpp). The least speed is judged for the motion only: a flight begins and
 // ends at rest.
 
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -1,8 +1,9 @@
 #pragma once
-// How one transition is agreed: rehearsed, proposed, confirmed by every agent, go; or given up, and nothing happened.
+// How one transition is agreed: rehearsed, proposed, confirmed by every agent that is asked, go; or given up, and
+// nothing happened.
 //
-// A machine of its own: it is told who has confirmed, and answers what the course should hold. It knows no beacon, no
-// agent and no plan's meaning.
+// A machine of its own: it is told who has not confirmed yet, and answers what the course should hold. It knows no
+// beacon, no agent and no plan's meaning.
 
 #include <cstdint>
 #include <optional>
@@ -15,10 +16,10 @@
 namespace gyre::coordinator {
 
 struct AgreementOptions {
-  Duration lead = std::chrono::milliseconds(600);       ///< from proposal to start
-  Duration go_margin = std::chrono::milliseconds(150);  ///< before the start nothing is decided any more
-  Duration rehearsal_per_carrier = std::chrono::milliseconds(40);
-  int attempts = 5;      ///< rehearsals, each at twice the duration of the last
+  Duration lead = std::chrono::milliseconds(600);                  ///< from proposal to start
+  Duration go_margin = std::chrono::milliseconds(150);             ///< before the start nothing is decided any more
+  Duration rehearsal_per_carrier = std::chrono::milliseconds(40);  ///< of the first attempt, before the lead
+  int attempts = 5;  ///< at rehearsing: at twice the duration if a limit broke, for a later start if it took too long
   bool rehearse = true;  ///< off in flights on virtual time, where thousands fly and no vehicle can be hurt
 };
 

@@ -34,7 +34,7 @@ namespace gyre::coordinator {
 struct Job {
   std::string name;
   mechanics::Plan plan;
-  std::optional<Duration> transition;  ///< absent: the shortest that keeps all limits
+  std::optional<Duration> transition;  ///< absent: shortest_transition, doubled until it keeps all limits
   protocol::AgentLoss on_agent_loss = protocol::AgentLoss::kFreeze;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
-// Before a transition is proposed, it is rehearsed: proven to keep every carrier within its limits and apart from the
-// others at every moment of it. If it does not, it is tried again, slower.
+// Before a transition is proposed, it is rehearsed: proven to keep every carrier within the mission's limits and apart
+// from the others at every moment of it. The least speed excepted: it is the motion's, and a transition may begin or
+// end at rest. What to do when a limit breaks is for the agreement to say.
 //
 // A rehearsal is done one carrier at a time, because a proof takes tens of milliseconds and the beacon must not wait.
 

@@ -20,7 +20,7 @@ enum class FlightPhase {
   kEngaging,   ///< from rest to the motion; also the wait for it to begin
   kFlying,     ///< the motion, and no transition under way
   kReleasing,  ///< back to rest, and at rest
-  kDeviated,   ///< the swarm went to a plan of its own, as when an agent was lost
+  kDeviated,   ///< the swarm went to a plan of its own, as when an agent was lost, or to that of another mission
 };
 
 /// "starting", "matching", ...

@@ -8,7 +8,6 @@
 namespace gyre::mission {
 
 using google::protobuf::FieldDescriptor;
-using google::protobuf::Message;
 using google::protobuf::TextFormat;
 
 std::string show(double value) {

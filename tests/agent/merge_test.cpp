@@ -13,8 +13,6 @@
 namespace gyre::agent {
 namespace {
 
-using mechanics::Taylor;
-using mechanics::TaylorVector;
 
 constexpr SwarmTime kNow{std::chrono::hours(1)};
 

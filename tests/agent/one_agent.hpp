@@ -20,7 +20,6 @@ using protocol::Beacon;
 using protocol::Course;
 using protocol::PlanNumber;
 using protocol::Stage;
-using protocol::Transition;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 

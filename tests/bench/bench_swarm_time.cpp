@@ -26,10 +26,7 @@
 
 namespace {
 
-using gyre::CarrierId;
-using gyre::Duration;
 using gyre::LocalTime;
-using gyre::SwarmTime;
 using gyre::test::CarrierRecord;
 using gyre::test::ClockFault;
 using gyre::test::FaultFlight;

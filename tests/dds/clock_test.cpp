@@ -5,11 +5,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <cstdlib>
-#include <string>
-#include <vector>
-
-#include "common/dds/clock.hpp"
 #include "common/dds/inbox.hpp"
 
 namespace gyre {

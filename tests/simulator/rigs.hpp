@@ -2,7 +2,6 @@
 // Things to hang a load from, small enough to know the answer by hand, and the paper's example.
 
 #include <array>
-#include <cmath>
 
 #include "common/base/angle.hpp"
 #include "common/mechanics/plan.hpp"

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "common/mechanics/carrier_slice.hpp"
 #include "common/mechanics/plan.hpp"
 
 namespace gyre::swarm {

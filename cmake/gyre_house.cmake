@@ -3,6 +3,8 @@
 add_library(gyre_house INTERFACE)
 target_compile_options(gyre_house INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Werror)
 target_include_directories(gyre_house INTERFACE ${CMAKE_SOURCE_DIR})
+# Debian 13's Fast CDR defines it for those who use it, whom headers precompiled without it would not fit.
+target_compile_definitions(gyre_house INTERFACE _FILE_OFFSET_BITS=64)
 # GCC sees uninitialised members in what the sanitizers put into an optional; without them the warning holds.
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   target_compile_options(gyre_house INTERFACE -Wno-maybe-uninitialized)

@@ -13,7 +13,6 @@
 namespace gyre::agent {
 namespace {
 
-
 constexpr SwarmTime kNow{std::chrono::hours(1)};
 
 double real(double low, double high) {

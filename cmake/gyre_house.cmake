@@ -11,7 +11,7 @@ if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
 endif()
 
 # What nearly every source of ours parses, compiled once for all: half of a build was parsing it again and again. Sources
-# include what they use all the same, and clang-tidy, which reads them without this, holds them to it.
+# include what they use all the same: clang-tidy and the embedding test read them without this.
 file(WRITE ${CMAKE_BINARY_DIR}/empty.cpp "")
 function(gyre_precompiled name)
   cmake_parse_arguments(arg "" "" "HEADERS;USES" ${ARGN})

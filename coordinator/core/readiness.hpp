@@ -21,7 +21,7 @@ class Readiness {
   /// Health of anybody else is passed over.
   void take(LocalTime now, const protocol::Health& health);
 
-  /// The first of what is complained of: "simulator: no setpoints for carrier 2". What was not said again for three
+  /// The first of what is complained of: "simulator: no setpoints for carrier 2". What was not said again for ten
   /// seconds is forgotten; somebody who died is missed otherwise.
   [[nodiscard]] std::optional<std::string> complaint(LocalTime now) const;
 

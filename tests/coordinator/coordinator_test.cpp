@@ -15,6 +15,7 @@ using protocol::CommandKind;
 using protocol::Stage;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using test::says;
 using test::SwarmOfAgents;
 
 Job job(protocol::AgentLoss policy = protocol::AgentLoss::kFreeze) {
@@ -23,10 +24,6 @@ Job job(protocol::AgentLoss policy = protocol::AgentLoss::kFreeze) {
   j.plan = mechanics::test::polygon_plan(4);
   j.on_agent_loss = policy;
   return j;
-}
-
-bool says(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
 }
 
 /// Everything that has to hold at every moment of every flight.

@@ -11,17 +11,9 @@ namespace {
 using protocol::CommandKind;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using test::job;
+using test::says;
 using test::SwarmOfAgents;
-
-Job job() {
-  Job job;
-  job.plan = mechanics::test::polygon_plan(4);
-  return job;
-}
-
-bool says(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
-}
 
 TEST(Readiness, DepartsOnlyWhenNobodyComplains) {
   CoordinatorOptions options;

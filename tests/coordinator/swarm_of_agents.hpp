@@ -10,8 +10,20 @@
 
 #include "agent/core/agent.hpp"
 #include "coordinator/core/coordinator.hpp"
+#include "tests/mechanics/plans.hpp"
 
 namespace gyre::coordinator::test {
+
+/// Four carriers on a polygon, and nothing else that matters.
+inline Job job() {
+  Job job;
+  job.plan = mechanics::test::polygon_plan(4);
+  return job;
+}
+
+inline bool says(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
 
 class SwarmOfAgents {
  public:

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "common/base/ensure.hpp"
+#include "common/base/text.hpp"
 
 namespace gyre::protocol {
 namespace {
@@ -17,8 +18,10 @@ Duration rounded(double ns) {
   return Duration(std::llround(std::clamp(ns, -longest, longest)));
 }
 
-/// Contradictions that are no further apart than this tell of the same other clock.
-constexpr double kAgreement_ns = 5e6;
+/// Deviations: what is further off is no accident.
+constexpr double kBeyondDoubt = 5.0;
+/// Deviation of a drift that nothing is known of.
+constexpr double kAnyDrift = 1.0;
 /// How lucky the least of a few delays is allowed to have been.
 constexpr double kLuck = 3.0;
 
@@ -43,94 +46,140 @@ Timekeeper::Verdict Timekeeper::observe(const Exchange& e, LocalTime now) {
   const Duration inside = e.reply_sent - e.request_received;
   const Duration delay = away - inside;
   if (inside < Duration::zero() || delay < Duration::zero() || away > options_.delay_max) return Verdict::kNonsense;
-  if (running_ && e.reply_received < filtered_at_) return Verdict::kNonsense;
+  // A copy of an exchange is not a second witness.
+  if (running_ && (e.request_sent <= request_sent_ || e.reply_received < filter_.at)) return Verdict::kNonsense;
+  request_sent_ = e.request_sent;
 
   // offset = ((T2 − T1) + (T3 − T4)) / 2 = T3 − T4 + delay / 2, which cannot overflow
   const Duration offset = e.reply_sent.time_since_epoch() - e.reply_received.time_since_epoch() + delay / 2;
-  if (!running_) {
+  if (!running_) origin_ = offset;
+  // The excess over the least delay is time spent on one of the two ways, nobody knows which.
+  const double delay_ns = nanoseconds(delay);
+  const double sigma_ns = nanoseconds(options_.noise) + 0.5 * excess_ns(delay_ns);
+  const Measurement m{e.reply_received, nanoseconds(offset - origin_), delay_ns, sigma_ns};
+
+  const bool was_read = synchronised();
+  bool anew = !running_;
+  if (anew) {
     running_ = true;
-    origin_ = offset;
-    start(e.reply_received, 0.0, nanoseconds(delay));
-  } else if (!follow(e.reply_received, nanoseconds(offset - origin_), nanoseconds(delay))) {
+    filter_ = begin(m);
+  } else if (filter_.follow(m)) {
+    // A slow exchange agrees with both, and says nothing of which is right.
+    if (rival_ && !rival_->follow(m)) drop_rival();
+  } else if (convinces(m)) {
+    filter_ = *rival_;
+    drop_rival();
+    anew = true;
+  } else {
     return Verdict::kContradiction;
   }
-  delays_[delay_count_++ % delays_.size()] = nanoseconds(delay);
-  steer(now);
+  if (anew) filter_.expect_drift(options_.drift_max / 3.0);
+  delays_[delay_count_++ % delays_.size()] = delay_ns;
+  // Until there is enough to fly by nobody does, and the estimate is taken as it is.
+  steer(now, anew || !was_read);
   ++taken_;
-  return Verdict::kTaken;
+  return anew && was_read ? Verdict::kFoundAnew : Verdict::kTaken;
 }
 
-bool Timekeeper::follow(LocalTime local, double measured_ns, double delay_ns) {
-  predict(local);
-  // The excess over the least delay is time spent on one of the two ways, nobody knows which.
-  const double sigma_ns = nanoseconds(options_.noise) + 0.5 * excess_ns(delay_ns);
-  auto& p = covariance_;
-  const double innovation_ns = measured_ns - offset_ns_;
-  const double variance = p[0][0] + sigma_ns * sigma_ns;
-  // Both offsets may be off by half a delay, whatever the network did: more is a contradiction.
-  if (std::abs(innovation_ns) > 5.0 * std::sqrt(variance) + 0.5 * delay_ns + asymmetry_ns_) {
-    const bool agree = contradictions_ > 0 && std::abs(measured_ns - contradiction_ns_) < delay_ns + kAgreement_ns;
-    contradictions_ = agree ? contradictions_ + 1 : 1;
-    contradiction_ns_ = measured_ns;
-    if (contradictions_ < options_.contradictions_to_restart) return false;
-    start(local, measured_ns, delay_ns);
-    return true;
+bool Timekeeper::convinces(const Measurement& contradiction) {
+  if (!rival_ || !rival_->follow(contradiction)) {
+    drop_rival();
+    rival_ = begin(contradiction);
+    contradictions_ = 0;
+    contradicted_since_ = contradiction.at;
   }
-  const double gain_offset = p[0][0] / variance;
-  const double gain_drift = p[1][0] / variance;
-  offset_ns_ += gain_offset * innovation_ns;
-  drift_ = std::clamp(drift_ + gain_drift * innovation_ns, -options_.drift_max, options_.drift_max);
-  asymmetry_ns_ += gain_offset * (0.5 * delay_ns - asymmetry_ns_);
-  p[1][1] -= gain_drift * p[0][1];
-  p[0][1] -= gain_offset * p[0][1];
-  p[1][0] = p[0][1];
-  p[0][0] -= gain_offset * p[0][0];
-  contradictions_ = 0;
-  return true;
+  ++contradictions_;
+  if (contradictions_ < options_.contradictions_to_find_anew) return false;
+  if (contradiction.at - contradicted_since_ < options_.contradictions_spread) return false;
+  refused_ = !supported(*rival_);
+  return !refused_;
+}
+
+void Timekeeper::drop_rival() {
+  rival_.reset();
+  refused_ = false;
+}
+
+bool Timekeeper::supported(const Filter& filter) const {
+  // 5000 ppm slow by one clock are 5025 ppm fast by the other: whichever it is counted by.
+  const double drift = std::abs(filter.drift);
+  return drift / (1.0 + drift) <= options_.drift_max + kBeyondDoubt * std::sqrt(filter.p11);
+}
+
+std::optional<std::string> Timekeeper::complaint() const {
+  if (!running_ || supported(believed())) return std::nullopt;
+  return text("its clock runs %.0f ppm apart from the swarm's, %.0f ppm are supported",
+              1e6 * std::abs(believed().drift), 1e6 * options_.drift_max);
 }
 
 void Timekeeper::doubt(Duration error) {
-  covariance_[0][0] += nanoseconds(error) * nanoseconds(error);
+  filter_.p00 += nanoseconds(error) * nanoseconds(error);
   // Another coordinator may run on another machine, whose quartz drifts otherwise.
   const double drift_sigma = options_.drift_max / 3.0;
-  covariance_[1][1] += drift_sigma * drift_sigma;
+  filter_.p11 += drift_sigma * drift_sigma;
 }
 
-void Timekeeper::start(LocalTime local, double offset_ns, double delay_ns) {
-  filtered_at_ = local;
-  offset_ns_ = offset_ns;
-  drift_ = 0.0;
-  asymmetry_ns_ = 0.5 * delay_ns;
-  // All of its delay may be excess: what was learned of delays before a restart may have been a lie.
-  const double sigma_ns = nanoseconds(options_.noise) + 0.5 * delay_ns;
-  const double drift_sigma = options_.drift_max / 3.0;
-  covariance_ = {{{sigma_ns * sigma_ns, 0.0}, {0.0, drift_sigma * drift_sigma}}};
-  contradictions_ = 0;
+Timekeeper::Filter Timekeeper::begin(const Measurement& m) const {
+  Filter filter;
+  filter.at = m.at;
+  filter.offset_ns = m.offset_ns;
+  filter.asymmetry_ns = 0.5 * m.delay_ns;
+  filter.p00 = m.sigma_ns * m.sigma_ns;
+  filter.p11 = kAnyDrift * kAnyDrift;
+  filter.wander_per_sqrt_s = options_.drift_wander_per_sqrt_s;
+  return filter;
 }
 
-void Timekeeper::predict(LocalTime local) {
-  const double dt = nanoseconds(local - filtered_at_);
-  const double dt_s = 1e-9 * dt;
-  auto& p = covariance_;
-  const double wander = options_.drift_wander_per_sqrt_s * options_.drift_wander_per_sqrt_s * dt_s;
-  offset_ns_ += drift_ * dt;
-  p[0][0] += 2.0 * dt * p[0][1] + dt * dt * (p[1][1] + wander / 3.0);
-  p[0][1] += dt * (p[1][1] + wander / 2.0);
-  p[1][0] = p[0][1];
-  p[1][1] += wander;
-  filtered_at_ = local;
+void Timekeeper::Filter::predict(LocalTime local) {
+  const double dt = nanoseconds(local - at);
+  const double wander = wander_per_sqrt_s * wander_per_sqrt_s * 1e-9 * dt;
+  offset_ns += drift * dt;
+  p00 += 2.0 * dt * p01 + dt * dt * (p11 + wander / 3.0);
+  p01 += dt * (p11 + wander / 2.0);
+  p11 += wander;
+  at = local;
 }
 
-void Timekeeper::steer(LocalTime local) {
-  const double ahead_ns = nanoseconds(local - filtered_at_);
-  const SwarmTime target(local.time_since_epoch() + origin_ + rounded(offset_ns_ + drift_ * ahead_ns));
-  // Until there is enough to fly by nobody does, and the estimate is taken as it is.
-  const SwarmTime shown = synchronised() ? at(local) : target;
+bool Timekeeper::Filter::follow(const Measurement& m) {
+  predict(m.at);
+  const double innovation_ns = m.offset_ns - offset_ns;
+  const double variance = p00 + m.sigma_ns * m.sigma_ns;
+  // A measurement may be off by half its delay, in swarm time, whatever the network did, and by no more.
+  const double bound_ns = 0.5 * (1.0 + std::abs(drift)) * m.delay_ns;
+  if (std::abs(innovation_ns) > kBeyondDoubt * std::sqrt(p00) + asymmetry_ns + bound_ns) return false;
+  const double gain_offset = p00 / variance;
+  const double gain_drift = p01 / variance;
+  offset_ns += gain_offset * innovation_ns;
+  drift += gain_drift * innovation_ns;
+  asymmetry_ns += gain_offset * (0.5 * m.delay_ns - asymmetry_ns);
+  p11 -= gain_drift * p01;
+  p01 -= gain_offset * p01;
+  p00 -= gain_offset * p00;
+  return true;
+}
+
+void Timekeeper::Filter::expect_drift(double sigma) {
+  const double variance = p11 + sigma * sigma;
+  const double gain_offset = p01 / variance;
+  const double gain_drift = p11 / variance;
+  offset_ns -= gain_offset * drift;
+  drift -= gain_drift * drift;
+  p00 -= gain_offset * p01;
+  p01 -= gain_drift * p01;
+  p11 -= gain_drift * p11;
+}
+
+void Timekeeper::steer(LocalTime local, bool jump) {
+  // A noisy network may make the filter think of any drift for a while.
+  const double rate = std::clamp(filter_.drift, -2.0 * options_.drift_max, 2.0 * options_.drift_max);
+  const double ahead_ns = nanoseconds(local - filter_.at);
+  const SwarmTime target(local.time_since_epoch() + origin_ + rounded(filter_.offset_ns + rate * ahead_ns));
+  const SwarmTime shown = jump ? target : at(local);
   anchor_local_ = local;
   anchor_swarm_ = shown;
   const double pace = nanoseconds(target - shown) / nanoseconds(options_.slew_time);
-  steady_rate_ = drift_;
-  slewing_rate_ = drift_ + std::clamp(pace, -options_.slew_max, options_.slew_max);
+  steady_rate_ = rate;
+  slewing_rate_ = rate + std::clamp(pace, -options_.slew_max, options_.slew_max);
 }
 
 SwarmTime Timekeeper::at(LocalTime local) const {
@@ -144,14 +193,10 @@ SwarmTime Timekeeper::at(LocalTime local) const {
 
 Duration Timekeeper::uncertainty(LocalTime local) const {
   if (!running_) return Duration::max();
-  const double dt = nanoseconds(std::max(Duration::zero(), local - filtered_at_));
-  const double dt_s = 1e-9 * dt;
-  const auto& p = covariance_;
-  const double wander = options_.drift_wander_per_sqrt_s * options_.drift_wander_per_sqrt_s * dt_s;
-  const double variance = p[0][0] + 2.0 * dt * p[0][1] + dt * dt * (p[1][1] + wander / 3.0);
-  const double estimate_ns = offset_ns_ + drift_ * dt;
+  Filter f = believed();
+  f.predict(std::max(local, f.at));
   const double shown_ns = nanoseconds(at(local).time_since_epoch() - local.time_since_epoch() - origin_);
-  return rounded(3.0 * std::sqrt(variance) + asymmetry_ns_ + std::abs(estimate_ns - shown_ns));
+  return rounded(3.0 * std::sqrt(f.p00) + f.asymmetry_ns + std::abs(f.offset_ns - shown_ns));
 }
 
 }  // namespace gyre::protocol

@@ -1,6 +1,6 @@
 #pragma once
-// Swarm time at an agent: an estimate of the coordinator's clock that never jumps, never runs backwards, and knows how
-// wrong it may be.
+// Swarm time at an agent: an estimate of the coordinator's clock that knows how wrong it may be, never runs backwards
+// and never jumps, unless time itself did.
 //
 // Intuition: an exchange of four timestamps gives the offset between two clocks up to half its round trip, because
 // nobody can tell how the trip divides into there and back. Fast exchanges tell much, slow ones little. Between
@@ -18,16 +18,23 @@
 //
 //   1. an exchange counts with the variance its delay in excess of the least recent delay gives it (least delay);
 //   2. a two-state Kalman filter follows offset and drift;
-//   3. an exchange that contradicts the filter beyond doubt is dropped; when many in a row agree with each other
-//      against the filter, the filter was wrong and starts again from them;
+//   3. an exchange that contradicts the filter beyond doubt is dropped, but a rival filter follows it; when enough of
+//      them, over enough time, agree on the rival and none speaks for the filter alone, some clock jumped (a machine
+//      slept, a virtual one was paused): swarm time is found anew, which is said, and is where the clock that is read
+//      jumps. To walk there would take half an hour after a pause of 20 s, all of it flown behind the others;
 //   4. the clock that is read runs at the filtered rate plus a bounded correction (slew): monotone, continuous;
 //   5. without exchanges the uncertainty grows with the drift's own uncertainty and with a bound on its wander;
 //   6. a network that is slow one way only pulls every exchange the same way, and no averaging helps: half of the delay
-//      is carried along, weighted as the filter weighs the offsets, and is part of the uncertainty.
+//      is carried along, weighted as the filter weighs the offsets, and is part of the uncertainty;
+//   7. the filter begins with a drift that may be anything supported, and the exchanges soon narrow it; the rival
+//   begins
+//      with one that may be anything at all, so that a clock too fast or too slow is measured, and refused in words.
 //
 // References: D. L. Mills, RFC 5905 (on-wire protocol, clock filter); R. E. Kalman, 1960.
 
 #include <array>
+#include <optional>
+#include <string>
 
 #include "common/base/time.hpp"
 
@@ -43,19 +50,21 @@ struct Exchange {
 struct TimekeeperOptions {
   Duration delay_max = std::chrono::seconds(1);    ///< slower exchanges say nothing worth keeping
   Duration noise = std::chrono::microseconds(15);  ///< standard deviation of the fastest exchange
-  double drift_max = 300e-6;                       ///< no quartz is worse
+  double drift_max = 5000e-6;                      ///< no quartz has 300e-6, a virtual machine's clock may have more
   double drift_wander_per_sqrt_s = 0.05e-6;        ///< random walk of the drift (temperature)
   double slew_max = 0.01;                          ///< of the rate: how fast an error is walked off while flying
   Duration slew_time = std::chrono::seconds(1);    ///< an error is walked off over about this long
   int exchanges_to_trust = 4;
-  int contradictions_to_restart = 8;
+  int contradictions_to_find_anew = 5;
+  Duration contradictions_spread = std::chrono::milliseconds(750);  ///< over at least that: not one burst of them
 };
 
 class Timekeeper {
  public:
   enum class Verdict {
     kTaken,
-    kNonsense,       ///< time ran backwards in it, or a delay no network has
+    kFoundAnew,      ///< taken, and swarm time as it is read jumped to it, either way; once synchronised()
+    kNonsense,       ///< time ran backwards in it, or a delay no network has, or not newer than the one before
     kContradiction,  ///< against all that is known; not used
   };
 
@@ -69,35 +78,62 @@ class Timekeeper {
 
   /// Enough exchanges to fly by.
   [[nodiscard]] bool synchronised() const { return taken_ >= options_.exchanges_to_trust; }
-  /// Once synchronised: monotone, and its rate bounded. `local` is not before the last observe(). Needs an exchange.
+  /// Once synchronised: monotone, and its rate bounded, between one kFoundAnew and the next. `local` is not before the
+  /// last observe(). Needs an exchange.
   [[nodiscard]] SwarmTime at(LocalTime local) const;
   /// Three standard deviations, plus what the network's asymmetry can hide, plus what is still to be slewed. The
-  /// longest duration there is before the first exchange.
+  /// longest duration there is before the first exchange. Until time is found anew after a jump, nobody knows of it.
   [[nodiscard]] Duration uncertainty(LocalTime local) const;
-  [[nodiscard]] double drift_ppm() const { return 1e6 * drift_; }
+  [[nodiscard]] double drift_ppm() const { return 1e6 * filter_.drift; }
+  /// In words, that the two clocks run further apart than is supported.
+  [[nodiscard]] std::optional<std::string> complaint() const;
 
  private:
+  struct Measurement {
+    LocalTime at{};
+    double offset_ns = 0.0;
+    double delay_ns = 0.0;
+    double sigma_ns = 0.0;
+  };
+  struct Filter {
+    LocalTime at{};
+    double offset_ns = 0.0;
+    double drift = 0.0;
+    double asymmetry_ns = 0.0;  // what of the offset may be the network's asymmetry
+    double p00 = 0.0;           // the covariance of (offset [ns], drift [-])
+    double p01 = 0.0;
+    double p11 = 0.0;
+    double wander_per_sqrt_s = 0.0;
+
+    void predict(LocalTime local);
+    /// False for a contradiction, from which nothing is learned.
+    [[nodiscard]] bool follow(const Measurement& m);
+    /// What is known of a drift that is supported, without any exchange: that it is 0, give or take.
+    void expect_drift(double sigma);
+  };
+
   /// How much of a delay the network did not need.
   [[nodiscard]] double excess_ns(double delay_ns) const;
-  void start(LocalTime local, double offset_ns, double delay_ns);
-  /// False for a contradiction.
-  bool follow(LocalTime local, double measured_ns, double delay_ns);
-  void predict(LocalTime local);
-  void steer(LocalTime local);
+  [[nodiscard]] Filter begin(const Measurement& m) const;
+  /// Whether the rival has convinced.
+  [[nodiscard]] bool convinces(const Measurement& contradiction);
+  void drop_rival();
+  void steer(LocalTime local, bool jump);
+  [[nodiscard]] bool supported(const Filter& filter) const;
+  [[nodiscard]] const Filter& believed() const { return refused_ ? *rival_ : filter_; }
 
   TimekeeperOptions options_;
 
-  // The filter: offset relative to a fixed origin, so that doubles keep nanoseconds for centuries of uptime.
-  Duration origin_{};
-  LocalTime filtered_at_{};
-  double offset_ns_ = 0.0;
-  double drift_ = 0.0;
-  double asymmetry_ns_ = 0.0;                          // what of the offset may be the network's asymmetry
-  std::array<std::array<double, 2>, 2> covariance_{};  // of (offset [ns], drift [-])
+  Duration origin_{};  // of all offsets: fixed, so that doubles keep nanoseconds for centuries of uptime
+  Filter filter_;
   int taken_ = 0;
-  int contradictions_ = 0;
-  double contradiction_ns_ = 0.0;
 
+  std::optional<Filter> rival_;  // follows what contradicts the filter
+  int contradictions_ = 0;
+  LocalTime contradicted_since_{};
+  bool refused_ = false;  // the rival convinces, but for a drift that is not supported
+
+  LocalTime request_sent_{};         // of the last exchange
   std::array<double, 32> delays_{};  // [ns] of recent exchanges, a ring
   std::size_t delay_count_ = 0;
 

@@ -1,8 +1,10 @@
 #pragma once
 // A clock that is wrong and a network that is slow, on virtual time: what a timekeeper has to see through.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "common/base/random_stream.hpp"
 #include "common/protocol/timekeeper.hpp"
@@ -22,13 +24,16 @@ struct WrongClock {
   Duration offset{};
   double drift = 0.0;
   double wander = 0.0;  ///< with the temperature, which comes and goes
+  SwarmTime jumps_at{};
+  Duration jump{};  ///< ahead; below zero it stands still until it is so far behind
 
   static constexpr Duration kDay = hours(1);
 
   [[nodiscard]] LocalTime show(SwarmTime t) const {
+    const SwarmTime run = t < jumps_at ? t : std::max(jumps_at, t + jump);
     const double day = static_cast<double>(kDay.count()) / (2.0 * M_PI);
-    const double wandered = wander * day * (1.0 - std::cos(since_start(t) / day));
-    return LocalTime(offset + t.time_since_epoch() + Duration(std::llround(drift * since_start(t) + wandered)));
+    const double wandered = wander * day * (1.0 - std::cos(since_start(run) / day));
+    return LocalTime(offset + run.time_since_epoch() + Duration(std::llround(drift * since_start(run) + wandered)));
   }
 
  private:
@@ -75,5 +80,54 @@ class Exchanges {
 [[nodiscard]] inline Duration magnitude(Duration d) {
   return d < Duration::zero() ? -d : d;
 }
+
+/// The same exchange with a coordinator whose clock is ahead.
+[[nodiscard]] inline Exchange shifted(Exchange e, Duration by) {
+  e.request_received += by;
+  e.reply_sent += by;
+  return e;
+}
+
+inline constexpr SwarmTime kBegin{hours(1)};
+inline constexpr Duration kPeriod = milliseconds(125);
+
+/// Feeds exchanges at the agent's pace until `end`; every `visit`ed moment lies between two of them.
+template <class Visit>
+inline void run(Timekeeper& keeper, Exchanges& exchanges, SwarmTime begin, SwarmTime end, Visit visit) {
+  for (SwarmTime t = begin; t < end; t += kPeriod) {
+    const Exchange e = exchanges.at(t);
+    (void)keeper.observe(e, e.reply_received);
+    for (SwarmTime seen = exchanges.complete(); seen < t + kPeriod; seen += milliseconds(10)) visit(seen);
+  }
+}
+
+inline void run(Timekeeper& keeper, Exchanges& exchanges, SwarmTime begin, SwarmTime end) {
+  run(keeper, exchanges, begin, end, [](SwarmTime) {});
+}
+
+/// A timekeeper that has settled on a clock, ten seconds after kBegin.
+struct Settled {
+  WrongClock clock{hours(3), 80e-6};
+  Exchanges exchanges{clock, Network{microseconds(30), microseconds(20), microseconds(30), microseconds(20)}, 1};
+  Timekeeper keeper;
+  SwarmTime now = kBegin + std::chrono::seconds(10);
+
+  Settled() { run(keeper, exchanges, kBegin, now); }
+
+  [[nodiscard]] SwarmTime shown() const { return keeper.at(clock.show(now)); }
+  [[nodiscard]] Timekeeper::Verdict lie(Duration by) {
+    const Exchange e = shifted(exchanges.at(now), by);
+    now = exchanges.complete();
+    return keeper.observe(e, e.reply_received);
+  }
+  [[nodiscard]] Duration error() const { return test::error(keeper, clock, now); }
+  [[nodiscard]] Duration uncertainty() const { return keeper.uncertainty(clock.show(now)); }
+};
+
+inline const std::vector<Network> kNetworks = {
+    {microseconds(30), microseconds(20), microseconds(30), microseconds(20)},  // loopback
+    {milliseconds(1), milliseconds(2), milliseconds(1), microseconds(100)},    // a radio, slow one way
+    {milliseconds(10), milliseconds(10), milliseconds(10), milliseconds(10)},  // a bad one
+};
 
 }  // namespace gyre::protocol::test

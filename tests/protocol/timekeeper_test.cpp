@@ -17,42 +17,6 @@ namespace {
 using namespace test;  // NOLINT(google-build-using-namespace): the rig of this room
 using Verdict = Timekeeper::Verdict;
 
-constexpr SwarmTime kBegin{hours(1)};
-constexpr Duration kPeriod = milliseconds(125);
-
-/// Feeds exchanges at the agent's pace until `end`; every `visit`ed moment lies between two of them.
-template <class Visit>
-void run(Timekeeper& keeper, Exchanges& exchanges, SwarmTime begin, SwarmTime end, Visit visit) {
-  for (SwarmTime t = begin; t < end; t += kPeriod) {
-    const Exchange e = exchanges.at(t);
-    (void)keeper.observe(e, e.reply_received);
-    for (SwarmTime seen = exchanges.complete(); seen < t + kPeriod; seen += milliseconds(10)) visit(seen);
-  }
-}
-
-void run(Timekeeper& keeper, Exchanges& exchanges, SwarmTime begin, SwarmTime end) {
-  run(keeper, exchanges, begin, end, [](SwarmTime) {});
-}
-
-/// A timekeeper that has settled on a clock, ten seconds after kBegin.
-struct Settled {
-  WrongClock clock{hours(3), 80e-6};
-  Exchanges exchanges{clock, Network{microseconds(30), microseconds(20), microseconds(30), microseconds(20)}, 1};
-  Timekeeper keeper;
-  SwarmTime now = kBegin + std::chrono::seconds(10);
-
-  Settled() { run(keeper, exchanges, kBegin, now); }
-
-  [[nodiscard]] SwarmTime shown() const { return keeper.at(clock.show(now)); }
-  [[nodiscard]] Verdict lie(Duration by) {
-    Exchange e = exchanges.at(now);
-    now = exchanges.complete();
-    e.request_received += by;
-    e.reply_sent += by;
-    return keeper.observe(e, e.reply_received);
-  }
-};
-
 double percentile(std::vector<double> values, double share) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
@@ -77,9 +41,9 @@ TEST(Timekeeper, IsSynchronisedAfterAFewExchangesAndNotBefore) {
   EXPECT_TRUE(keeper.synchronised());
 }
 
-TEST(Timekeeper, SeesThroughOffsetsOfHoursAndDriftsOf200Ppm) {
+TEST(Timekeeper, SeesThroughOffsetsOfHoursAndDriftsOf5000Ppm) {
   for (const Duration offset : {Duration(-hours(12)), Duration::zero(), Duration(hours(100'000))}) {
-    for (const double drift : {-200e-6, 0.0, 200e-6}) {
+    for (const double drift : {-5000e-6, -200e-6, 0.0, 200e-6, 5000e-6}) {
       const WrongClock clock{offset, drift};
       Exchanges exchanges(clock, {}, 2);
       Timekeeper keeper;
@@ -87,6 +51,7 @@ TEST(Timekeeper, SeesThroughOffsetsOfHoursAndDriftsOf200Ppm) {
       run(keeper, exchanges, kBegin, end);
       EXPECT_LT(magnitude(error(keeper, clock, end)), microseconds(5)) << seconds(offset) << " s, drift " << drift;
       EXPECT_NEAR(keeper.drift_ppm(), 1e6 * (1.0 / (1.0 + drift) - 1.0), 0.5);
+      EXPECT_FALSE(keeper.complaint()) << *keeper.complaint();
     }
   }
 }
@@ -98,7 +63,8 @@ TEST(Timekeeper, UncertaintyCoversTheErrorWhateverTheClockAndTheNetwork) {
     RandomStream random(seed, "conditions");
     const auto within = [&random](double low, double high) { return low + (high - low) * random.uniform(); };
     const auto scale = [&] { return ms(std::pow(10.0, within(-2.0, 1.0))); };  // 10 us to 10 ms
-    const WrongClock clock{from_seconds(within(-1e5, 1e5)), within(-200e-6, 200e-6)};
+    const double drift_max = random.uniform() < 0.5 ? 200e-6 : 5000e-6;
+    const WrongClock clock{from_seconds(within(-1e5, 1e5)), within(-drift_max, drift_max)};
     Network network{scale(), scale(), scale(), scale()};
     if (random.uniform() < 0.3) network.there_jitter = Duration::zero();  // slow one way only
     if (random.uniform() < 0.3) network.back_jitter = Duration::zero();
@@ -110,6 +76,7 @@ TEST(Timekeeper, UncertaintyCoversTheErrorWhateverTheClockAndTheNetwork) {
       const Duration wrong = magnitude(error(keeper, clock, t));
       const Duration said = keeper.uncertainty(clock.show(t));
       EXPECT_LE(wrong, said) << "seed " << seed << ", " << seconds(t - kBegin) << " s after the start";
+      EXPECT_FALSE(keeper.complaint()) << "seed " << seed << ": " << *keeper.complaint();
     };
     run(keeper, exchanges, kBegin, end, covered);
     for (const int alone_s : {1, 5, 30, 300}) covered(end + std::chrono::seconds(alone_s));  // holdover
@@ -149,7 +116,7 @@ TEST(Timekeeper, HoldoverGrowsUncertainSlowlyAndForEver) {
   }
   // A learned drift is worth something: far better than the bound on any quartz.
   EXPECT_LT(s.keeper.uncertainty(s.clock.show(s.now + std::chrono::seconds(60))),
-            from_seconds(0.1 * 60 * TimekeeperOptions{}.drift_max));
+            from_seconds(0.01 * 60 * TimekeeperOptions{}.drift_max));
 }
 
 TEST(Timekeeper, IsBetterThanAveragingAllExchanges) {
@@ -203,10 +170,11 @@ TEST(Timekeeper, AccuracyWithDelaysAsOnLoopback) {
   EXPECT_LT(percentile(apart_us, 0.99), 50.0);  // the aim for one machine, on virtual time
 }
 
-// Never backwards, never a jump: the rate stays within the slew limit of the true one.
+// Never backwards, never a jump that is not said: the rate stays within the slew limit of the true one.
 TEST(Timekeeper, RunsOnSmoothlyWhateverItIsTold) {
   const TimekeeperOptions options;
   const double fastest = options.slew_max + 2.0 * options.drift_max;
+  int found_anew = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     RandomStream random(seed, "lies");
     const WrongClock clock{from_seconds(1e4 * (random.uniform() - 0.5)), 400e-6 * (random.uniform() - 0.5)};
@@ -229,55 +197,67 @@ TEST(Timekeeper, RunsOnSmoothlyWhateverItIsTold) {
     for (int i = 0; i < 400; ++i) {
       t += ms(200.0 * random.uniform());
       if (random.uniform() < 0.1) lie = from_seconds(std::pow(10.0, 8.0 * random.uniform() - 6.0));
-      Exchange e = exchanges.at(t);
-      e.request_received += lie;
-      e.reply_sent += lie;
+      const Exchange e = shifted(exchanges.at(t), lie);
       t = std::max(t, exchanges.complete());
       if (random.uniform() < 0.05) t += std::chrono::seconds(2);  // suspended: the reply waits in a queue
       const LocalTime now = clock.show(t);
       ask(now - std::min(now - asked, Duration(microseconds(1))));
-      (void)keeper.observe(e, now);  // the reply may be older than what was asked for meanwhile
+      // The reply may be older than what was asked for meanwhile.
+      if (keeper.observe(e, now) == Verdict::kFoundAnew) {
+        ++found_anew;
+        asked = now;
+        shown = keeper.at(now);
+      }
       ask(now);
       ask(now + ms(5.0 * random.uniform()));
       t += milliseconds(6);
     }
     if (HasFailure()) return;
   }
+  EXPECT_GT(found_anew, 100) << "a lie that is told for long enough";
 }
 
-TEST(Timekeeper, OneLieIsAContradictionAndChangesNothing) {
-  Settled s;
-  const Duration before = magnitude(error(s.keeper, s.clock, s.now));
-  EXPECT_EQ(s.lie(std::chrono::seconds(5)), Verdict::kContradiction);
-  EXPECT_LT(magnitude(error(s.keeper, s.clock, s.now)), before + microseconds(1));
+// However little was learned, nothing supported is faster: at the start and when time was found anew.
+TEST(Timekeeper, AloneItsUncertaintyGrowsNoFasterThanTheDriftThatIsSupported) {
+  const WrongClock clock{hours(3), 80e-6};
+  Exchanges exchanges(clock, kNetworks[2], 1);
+  Timekeeper keeper;
+  const auto growth = [&](Duration alone) {
+    const LocalTime now = clock.show(exchanges.complete());
+    return keeper.uncertainty(now + alone) - keeper.uncertainty(now);
+  };
+  const Duration alone = std::chrono::seconds(10);
+  const Duration most = from_seconds(1.01 * TimekeeperOptions{}.drift_max * seconds(alone));
+  run(keeper, exchanges, kBegin, kBegin + 4 * kPeriod);
+  ASSERT_TRUE(keeper.synchronised());
+  EXPECT_LT(growth(alone), most);
+  Verdict verdict = Verdict::kTaken;
+  for (int i = 4; i < 30 && verdict != Verdict::kFoundAnew; ++i) {
+    const Exchange e = shifted(exchanges.at(kBegin + i * kPeriod), hours(1));
+    verdict = keeper.observe(e, e.reply_received);
+  }
+  ASSERT_EQ(verdict, Verdict::kFoundAnew);
+  EXPECT_LT(growth(alone), most);
 }
 
-TEST(Timekeeper, LiesThatDisagreeAreNeverBelieved) {
-  Settled s;
-  for (int i = 1; i <= 100; ++i) {
-    s.now += kPeriod;
-    EXPECT_EQ(s.lie(i % 2 == 0 ? std::chrono::seconds(i) : -std::chrono::seconds(i)), Verdict::kContradiction);
+TEST(Timekeeper, SaysThatAClockIsTooFastOrTooSlow) {
+  for (const double drift : {-0.5, -0.1, -0.02, -0.01, -0.006, 0.006, 0.01, 0.02, 0.1, 1.0}) {
+    for (std::size_t n = 0; n < kNetworks.size(); ++n) {
+      const WrongClock clock{hours(3), drift};
+      Exchanges exchanges(clock, kNetworks[n], 1);
+      Timekeeper keeper;
+      SwarmTime said{};
+      run(keeper, exchanges, kBegin, kBegin + std::chrono::minutes(1), [&](SwarmTime t) {
+        if (said == SwarmTime{} && keeper.complaint()) said = t;
+        if (t < kBegin + std::chrono::seconds(15)) return;
+        EXPECT_LE(magnitude(error(keeper, clock, t)), keeper.uncertainty(clock.show(t)))
+            << "drift " << drift << ", network " << n << ", " << seconds(t - kBegin) << " s after the start";
+      });
+      const auto complaint = keeper.complaint();
+      ASSERT_TRUE(complaint) << "drift " << drift << ", network " << n;
+      std::printf("drift %g, network %zu: %s, after %.2f s\n", drift, n, complaint->c_str(), seconds(said - kBegin));
+    }
   }
-  EXPECT_LE(magnitude(error(s.keeper, s.clock, s.now)), s.keeper.uncertainty(s.clock.show(s.now)));
-}
-
-TEST(Timekeeper, ManyThatAgreeAreBelievedAndWalkedTo) {
-  Settled s;
-  const Duration by = milliseconds(30);
-  for (int i = 1; i < TimekeeperOptions{}.contradictions_to_restart; ++i) {
-    s.now += kPeriod;
-    EXPECT_EQ(s.lie(by), Verdict::kContradiction);
-  }
-  s.now += kPeriod;
-  const SwarmTime before = s.shown();
-  EXPECT_EQ(s.lie(by), Verdict::kTaken);
-  EXPECT_LT(s.shown() - before, milliseconds(1)) << "believed, but not jumped to";
-  EXPECT_GE(s.keeper.uncertainty(s.clock.show(s.now)), milliseconds(29)) << "what is left to walk is uncertain";
-  for (int i = 0; i < 100; ++i) {
-    s.now += kPeriod;
-    EXPECT_EQ(s.lie(by), Verdict::kTaken);
-  }
-  EXPECT_LT(magnitude(error(s.keeper, s.clock, s.now) - by), microseconds(50));
 }
 
 TEST(Timekeeper, DoubtWidensTheGate) {
@@ -288,6 +268,21 @@ TEST(Timekeeper, DoubtWidensTheGate) {
   EXPECT_GE(s.keeper.uncertainty(s.clock.show(s.now)), before + milliseconds(2));
   s.now += kPeriod;
   EXPECT_EQ(s.lie(milliseconds(3)), Verdict::kTaken);
+}
+
+// Its machine may be another one, with another clock.
+TEST(Timekeeper, DoubtAllowsForAnotherDrift) {
+  for (const double drift : {-5000e-6, -200e-6, 200e-6, 5000e-6}) {
+    Settled s;
+    s.keeper.doubt(milliseconds(1));
+    const SwarmTime begin = s.now;
+    for (int i = 0; i < 80; ++i) {
+      s.now += kPeriod;
+      const Duration by = milliseconds(1) + from_seconds(drift * seconds(s.now - begin));
+      EXPECT_LE(magnitude(s.error() - by), s.uncertainty() + microseconds(1)) << i;
+      EXPECT_EQ(s.lie(by), Verdict::kTaken);
+    }
+  }
 }
 
 TEST(Timekeeper, RefusesTimeThatRunsBackwardsAndDelaysNoNetworkHas) {
@@ -334,17 +329,6 @@ TEST(Timekeeper, SurvivesEveryExtremeNumber) {
   const LocalTime now = s.clock.show(s.now);
   flood(s.keeper, now);
   EXPECT_LE(magnitude(error(s.keeper, s.clock, s.now)), s.keeper.uncertainty(now));
-}
-
-TEST(Timekeeper, AStepOfTheOtherClockAfterSleepIsFollowed) {
-  // The machine slept: its steady clock stood still for two seconds, so all of swarm time is two seconds ahead.
-  Settled s;
-  const Duration slept = std::chrono::seconds(2);
-  for (int i = 0; i < 2000; ++i) {
-    s.now += kPeriod;
-    (void)s.lie(slept);
-  }
-  EXPECT_LT(magnitude(error(s.keeper, s.clock, s.now) - slept), microseconds(50));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "common/program/mission_argument.hpp"
 #include "common/program/program.hpp"
 #include "coordinator/core/coordinator.hpp"
+#include "coordinator/retune_worker.hpp"
 
 namespace {
 
@@ -30,22 +31,20 @@ gyre::coordinator::Job job_of(const gyre::mission::Mission& mission) {
   job.name = mission.name;
   job.plan = mission.plan;
   if (mission.transition_duration_s) job.transition = gyre::from_seconds(*mission.transition_duration_s);
-  job.on_agent_loss = mission.agent_loss;
+  job.silence = mission.silence;
   return job;
 }
 
-/// What arrived, as the core takes it: a mission that came over the wire is read and judged like one from a file.
-Event understood(const Event& event) {
-  const auto* command = std::get_if<protocol::Command>(&event);
-  if (command == nullptr || command->kind != protocol::CommandKind::kRetune) return event;
-  const auto mission = gyre::mission::parse_mission(command->mission, "mission");
-  if (!mission) return gyre::coordinator::Retune{command->id, mission.error()};
+/// A mission that came over the wire is read and judged like one from a file.
+gyre::Result<gyre::coordinator::Job> judged(const std::string& text) {
+  const auto mission = gyre::mission::parse_mission(text, "mission");
+  if (!mission) return mission.error();
   const gyre::mechanics::Certificate certificate = gyre::mechanics::certify(mission.value().plan);
-  if (!certificate.admissible()) {
-    return gyre::coordinator::Retune{command->id, gyre::Error{"refused: " + certificate.reasons.front().text}};
-  }
-  return gyre::coordinator::Retune{command->id, job_of(mission.value())};
+  if (!certificate.admissible()) return gyre::Error{"refused: " + certificate.reasons.front().text};
+  return job_of(mission.value());
 }
+
+constexpr gyre::Duration kEvidencePeriod = std::chrono::milliseconds(18);
 
 /// The wire side: what the coordinator hears goes into the inbox, what it says goes out through the writers.
 class Wire {
@@ -62,12 +61,24 @@ class Wire {
     }
     node.read<protocol::Beacon>([this](protocol::Beacon b, LocalTime) { inbox_.push(std::move(b)); });
     node.read<protocol::Health>([this](protocol::Health h, LocalTime) { inbox_.push(std::move(h)); });
-    node.read<protocol::Command>([this](protocol::Command c, LocalTime) { inbox_.push(std::move(c)); });
+    node.read<protocol::Command>([this](protocol::Command c, LocalTime) {
+      if (c.kind != protocol::CommandKind::kRetune) return inbox_.push(std::move(c));
+      retunes_.ask(c);
+    });
     for (const gyre::mechanics::Carrier& carrier : plan.carriers) {
       node.read<protocol::AgentStatus>([this](protocol::AgentStatus s, LocalTime) { inbox_.push(std::move(s)); },
                                        carrier.id);
       node.read<protocol::HeldPlans>([this](protocol::HeldPlans h, LocalTime) { inbox_.push(std::move(h)); },
                                      carrier.id);
+      // Evidence is wanted at the beacons' rate; what comes between is passed over before it wakes anybody.
+      node.read<protocol::CarrierState>(
+          [this, own = carrier.id, last = LocalTime::min()](const protocol::CarrierState& s,
+                                                            LocalTime arrived) mutable {
+            if (s.carrier != own || (last != LocalTime::min() && arrived - last < kEvidencePeriod)) return;
+            last = arrived;
+            inbox_.push(s);
+          },
+          carrier.id);
       node.read<protocol::TimeRequest>(
           [this](const protocol::TimeRequest& r, LocalTime arrived) {
             inbox_.push(gyre::coordinator::TimeRequestArrived{r, arrived});
@@ -92,7 +103,9 @@ class Wire {
   }
 
  private:
-  gyre::dds::Inbox<Event> inbox_;  // outlives the node, whose handlers fill it
+  gyre::dds::Inbox<Event> inbox_;  // outlives the node, whose handlers fill it, and the worker
+  gyre::coordinator::RetuneWorker retunes_{
+      judged, [this](gyre::coordinator::Retune retune) { inbox_.push(std::move(retune)); }};
   std::unique_ptr<gyre::dds::Node> node_;
   gyre::dds::HealthReporter health_;
   gyre::dds::Writer<protocol::Beacon> beacon_;
@@ -113,12 +126,14 @@ Outcome conduct(Coordinator& coordinator, Wire& wire) {
     if (out.finished) finished = out.finished;
   };
   for (int interrupts = 0; !finished;) {
-    for (const Event& event : wire.sleep_until(next_tick)) step(understood(event));
+    for (const Event& event : wire.sleep_until(next_tick)) step(event);
     step(gyre::coordinator::Tick{});
     wire.report_health(coordinator);
     const gyre::Interrupts asked = gyre::take_interrupts();
-    // A service that is restarted or moved: the agents fly on, and whoever starts next learns all from them.
-    if (asked.by_system > 0) return {true, "ended as the system asked; the agents fly on"};
+    // A service that is restarted or moved: the agents fly on, to the end of their lease, and whoever starts next
+    // learns all from them.
+    if (asked.by_system > 0)
+      return {true, "ended as the system asked; the agents fly on, to the end of their lease if the mission has one"};
     for (int more = asked.by_person; more > 0; --more) {
       if (++interrupts > 1) return {false, "interrupted twice: ended at once, the load is left as it is"};
       step(gyre::coordinator::Shutdown{});

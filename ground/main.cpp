@@ -11,9 +11,10 @@
 int main(int argc, char** argv) {
   using namespace gyre::ground;
   return gyre::program::run(
-      gyre::program::Family{"gyre",
-                            "Gyre: a load that hangs still while the vehicles that carry it never stop.",
-                            {check_command(), sample_command(), fly_command(), engage_command(), release_command(),
-                             freeze_command(), retune_command(), status_command(), watch_command(), health_command()}},
+      gyre::program::Family{
+          "gyre",
+          "Gyre: a load that hangs still while the vehicles that carry it never stop.",
+          {check_command(), sample_command(), fly_command(), engage_command(), release_command(), freeze_command(),
+           pace_command(), retune_command(), status_command(), watch_command(), health_command()}},
       argc, argv);
 }

@@ -22,12 +22,12 @@ using gyre::simulator::Simulator;
 namespace program = gyre::program;
 namespace protocol = gyre::protocol;
 
-struct SetpointArrived {
-  protocol::Setpoint setpoint;
-  LocalTime arrived;
+struct Arrived {
+  gyre::simulator::Event event;
+  LocalTime at;
 };
 
-/// The wire side: setpoints go into the inbox with the time they arrived, states go out through the writers.
+/// The wire side: what agents say goes into the inbox with the time it arrived, states go out through the writers.
 class Wire {
  public:
   Wire(std::unique_ptr<gyre::dds::Node> opened, const gyre::mechanics::Plan& plan)
@@ -40,16 +40,21 @@ class Wire {
     for (const gyre::mechanics::Carrier& carrier : plan.carriers) {
       node.read<protocol::Setpoint>(
           [this, own = carrier.id](const protocol::Setpoint& setpoint, LocalTime arrived) {
-            SetpointArrived event{setpoint, arrived};
+            protocol::Setpoint own_setpoint = setpoint;
             // A topic belongs to one carrier. Id 0 is nobody's, so the core drops, counts and reports it.
-            if (setpoint.carrier != own) event.setpoint.carrier = 0;
-            inbox_.push(std::move(event));
+            if (setpoint.carrier != own) own_setpoint.carrier = 0;
+            inbox_.push({own_setpoint, arrived});
           },
           carrier.id);
+      const auto learn = [this, own = carrier.id](auto message, LocalTime arrived) {
+        if (message.carrier == own) inbox_.push({std::move(message), arrived});
+      };
+      node.read<protocol::AgentStatus>(learn, carrier.id);
+      node.read<protocol::HeldPlans>(learn, carrier.id);
     }
   }
 
-  [[nodiscard]] std::deque<SetpointArrived> sleep_until(LocalTime deadline) { return inbox_.sleep_until(deadline); }
+  [[nodiscard]] std::deque<Arrived> sleep_until(LocalTime deadline) { return inbox_.sleep_until(deadline); }
 
   void send(const Outputs& out) {
     for (std::size_t i = 0; i < out.carriers.size(); ++i) carriers_[i].write(out.carriers[i]);
@@ -62,7 +67,7 @@ class Wire {
   }
 
  private:
-  gyre::dds::Inbox<SetpointArrived> inbox_;  // outlives the node, whose handlers fill it
+  gyre::dds::Inbox<Arrived> inbox_;  // outlives the node, whose handlers fill it
   std::unique_ptr<gyre::dds::Node> node_;
   gyre::dds::HealthReporter health_;
   gyre::dds::Writer<protocol::LoadState> load_;
@@ -74,6 +79,7 @@ SimulationSettings settings_of(const gyre::mission::Mission& mission) {
   settings.carrier_lag_s = mission.simulation.carrier_time_constant_s;
   settings.winch_time_constant_s = mission.winch.time_constant_s;
   settings.winch_rate_limit_m_s = mission.winch.rate_max_m_s;
+  settings.holds = mission.holds;
   if (const auto& wind = mission.simulation.wind) {
     settings.wind = {wind->force_w_n, wind->gust_n, wind->gust_time_s};
     settings.seed = wind->seed;
@@ -99,8 +105,8 @@ void report(const Outputs& out) {
 
 void simulate(Simulator& simulator, Wire& wire) {
   while (gyre::take_interrupts().total() == 0) {
-    for (const SetpointArrived& event : wire.sleep_until(simulator.next_due())) {
-      report(simulator.step(event.arrived, event.setpoint));
+    for (const Arrived& arrived : wire.sleep_until(simulator.next_due())) {
+      report(simulator.step(arrived.at, arrived.event));
     }
     const LocalTime now = gyre::dds::now();
     if (now < simulator.next_due()) continue;

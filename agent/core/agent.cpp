@@ -6,17 +6,19 @@
 #include "common/base/angle.hpp"
 #include "common/base/text.hpp"
 #include "common/protocol/course.hpp"
+#include "common/protocol/follow.hpp"
 #include "common/protocol/sanity.hpp"
 #include "common/protocol/term.hpp"
 
 namespace gyre::agent {
 
-using protocol::Stage;
-
 namespace {
 
 /// A motion slower than that is as good as none.
 constexpr double kLongestPeriod_s = 3600.0;
+/// One axis told in two ways, before and after it is settled, differs by no more.
+constexpr Duration kRounding(2);
+constexpr double kNoPace = 1e-9;
 
 MergeLimits merge_limits(const mechanics::Limits& vehicle) {
   const MergeLimits cautious;
@@ -25,22 +27,8 @@ MergeLimits merge_limits(const mechanics::Limits& vehicle) {
           vehicle.winch_rate_max_m_s.value_or(cautious.winch_rate_m_s)};
 }
 
-/// The reference as a command: the cable is paid out short by what its tension stretches it, l0 = l − s / k.
 Command command_of(const mechanics::Reference& r, double stiffness_n_m) {
-  Command command{r.position_w_m, r.length_m};
-  if (stiffness_n_m > 0.0) command.winch_m = command.winch_m - (1.0 / stiffness_n_m) * r.tension_n;
-  return command;
-}
-
-/// Whether it is one plan's motion and nothing else, now and before.
-bool plain(const protocol::Course& course) {
-  return std::none_of(course.transitions.begin(), course.transitions.end(),
-                      [](const protocol::Transition& t) { return t.stage == Stage::kGo; });
-}
-
-bool finite(const protocol::Setpoint& s) {
-  return s.position_w_m.allFinite() && s.velocity_w_m_s.allFinite() && s.acceleration_w_m_s2.allFinite() &&
-         s.direction_w.allFinite() && std::isfinite(s.winch_length_m + s.winch_rate_m_s + s.winch_acceleration_m_s2);
+  return {r.position_w_m, protocol::winch_length(r, stiffness_n_m)};
 }
 
 /// Where a carrier is `age_s` after it said so.
@@ -56,6 +44,7 @@ Agent::Agent(const AgentOptions& options)
       clock_(options.timekeeper),
       plans_(options.vehicle),
       merge_(merge_limits(options.vehicle)),
+      steps_(options.vehicle, options.stall),
       coordinator_(options.coordinator_timeout) {}
 
 Outputs Agent::step(LocalTime now, const Event& event) {
@@ -84,10 +73,8 @@ void Agent::on(LocalTime now, const Tick& /*tick*/, Outputs& out) {
   if (time) {
     protocol::settle(course_, *time);
     const auto r = reference(course_, *time);
-    if (r && back_at_the_vehicle(now)) {
-      const protocol::Setpoint s = setpoint(*time, *r);
-      if (finite(s)) out.setpoint = s;  // where a mixture's forces cancel, the cable has no direction to be flown
-    }
+    const bool doubted = doubted_at_ && now - *doubted_at_ <= options_.doubt;
+    if (r && !doubted && back_at_the_vehicle(now)) send(now, setpoint(*time, *r), out);
   }
   const bool alone = coordinator_.ever_heard() && coordinator_.silent(now);
   if (alone != alone_) {
@@ -98,12 +85,30 @@ void Agent::on(LocalTime now, const Tick& /*tick*/, Outputs& out) {
   if (now >= next_status_) out.status = status(now);
 }
 
+/// Nothing is better than a leap: the vehicle goes on along its path, and is led again from where it is then.
+void Agent::send(LocalTime now, const protocol::Setpoint& setpoint, Outputs& out) {
+  const auto why = steps_.objection(now, setpoint);
+  if (!why) {
+    out.setpoint = setpoint;
+    return;
+  }
+  if (!withheld_ || now - withheld_->at > options_.complained) out.notices.push_back({Notice::Level::kError, *why});
+  withheld_ = Withheld{now, *why};
+  steps_.forget();
+  awake_since_ = now;
+  vehicle_.reset();
+}
+
 bool Agent::accepts_term(std::uint64_t term, Outputs& out) {
   if (term < term_) {
     ++dropped_.wrong_term;
     return false;
   }
   if (term > term_) {
+    if (!terms_.believes(term_, term)) {
+      ++dropped_.nonsense;
+      return false;
+    }
     if (term_ != 0) {
       out.notices.push_back(
           {Notice::Level::kInfo, text("a new coordinator took over: term %llu", protocol::generation(term))});
@@ -111,10 +116,19 @@ bool Agent::accepts_term(std::uint64_t term, Outputs& out) {
       clock_.doubt(std::chrono::milliseconds(1));
     }
     term_ = term;
-    confirmed_ = 0;  // what was confirmed was confirmed to the former one, whose transitions had numbers of their own
+    confirmed_ = 0;  // what was confirmed was confirmed to the former one
     heard_.reset();
+    offers_taken_ = 0;
+    beacons_ = {};
   }
   return true;
+}
+
+void Agent::take_early_offer(LocalTime now, Outputs& out) {
+  if (!early_offer_ || early_offer_->term > term_) return;
+  const protocol::PlanOffer offer = std::move(*early_offer_);
+  early_offer_.reset();
+  if (offer.term == term_) on(now, offer, out);
 }
 
 void Agent::on(LocalTime now, const protocol::Beacon& beacon, Outputs& out) {
@@ -125,21 +139,37 @@ void Agent::on(LocalTime now, const protocol::Beacon& beacon, Outputs& out) {
   if (const auto time = swarm_time(now)) {
     const Duration age = *time - beacon.swarm_time;
     const Duration age_max = options_.beacon_age_max + std::min(clock_.uncertainty(now), kLongest);
-    if (age > age_max || age < -age_max) {
-      ++(age > Duration::zero() ? dropped_.late : dropped_.nonsense);
+    // None comes from the future: this clock stood still, or the coordinator's jumped, or somebody lies. Which it is,
+    // exchanges will tell; until then the vehicle knows its path better than this agent does.
+    if (age < -(options_.beacon_ahead_max + std::min(clock_.uncertainty(now), kLongest))) {
+      doubted_at_ = now;
+      ++dropped_.nonsense;
+      return;
+    }
+    doubted_at_.reset();
+    if (age > age_max) {
+      ++dropped_.late;
       return;
     }
   }
   if (!accepts_term(beacon.term, out)) return;
-  if (heard_ && beacon.sequence <= heard_->sequence) {
-    ++(beacon.sequence == heard_->sequence ? dropped_.duplicate : dropped_.late);
+  take_early_offer(now, out);
+  using Verdict = protocol::SequenceJudge::Verdict;
+  if (const Verdict verdict = beacons_.take(beacon.sequence); verdict != Verdict::kNew) {
+    ++(verdict == Verdict::kDuplicate ? dropped_.duplicate
+       : verdict == Verdict::kLate    ? dropped_.late
+                                      : dropped_.nonsense);
     return;
   }
-  if (heard_) beacons_missed_ += beacon.sequence - heard_->sequence - 1;
+  if (!revisions_.believes(heard_ ? heard_->course.revision : course_.revision, beacon.course.revision)) {
+    ++dropped_.nonsense;
+    return;
+  }
+  if (heard_ && beacon.sequence > heard_->sequence) beacons_missed_ += beacon.sequence - heard_->sequence - 1;
   ++beacons_received_;
   coordinator_.heard(now);
   heard_ = beacon;
-  adopt(now, beacon.course, out);
+  adopt(now, out);
 }
 
 void Agent::on(LocalTime now, const protocol::PlanOffer& offer, Outputs& out) {
@@ -147,31 +177,59 @@ void Agent::on(LocalTime now, const protocol::PlanOffer& offer, Outputs& out) {
     ++dropped_.nonsense;
     return;
   }
-  if (!accepts_term(offer.term, out)) return;
+  if (!accepts_term(offer.term, out)) {
+    if (offer.term > term_) early_offer_ = offer;
+    return;
+  }
+  early_offer_.reset();
+  if (offer.sequence < offers_taken_) {
+    ++dropped_.late;
+    return;
+  }
+  // None is said again, so one that leaps is taken; but it does not make deaf to those that follow.
+  if (offer.sequence - offers_taken_ <= kFurthestOffer) offers_taken_ = offer.sequence;
   const protocol::PlanNumber refused_before = plans_.refused();
-  if (!plans_.take(offer.slices, protocol::plans_of(course_))) return;
+  const bool keeps = offer.neighbour.size() != neighbour_.size() ||
+                     !std::equal(neighbour_.begin(), neighbour_.end(), offer.neighbour.begin(),
+                                 [](const auto& a, const auto& b) { return a.number == b.number; });
+  neighbour_ = offer.neighbour;
+  if (!plans_.take(offer.slices, protocol::plans_of(course_)) && !keeps) return;
   if (plans_.refused() != refused_before) {
     out.notices.push_back({Notice::Level::kError, "plan refused: " + plans_.refusal()});
   }
-  if (heard_) adopt(now, heard_->course, out);
-  out.held = protocol::HeldPlans{options_.carrier, options_.incarnation, plans_.held()};
+  if (heard_) adopt(now, out);
+  out.held = protocol::HeldPlans{options_.carrier, options_.incarnation, plans_.held(), neighbour_};
   out.status = status(now);  // the coordinator is waiting for this answer
 }
 
-void Agent::adopt(LocalTime now, const protocol::Course& course, Outputs& out) {
+void Agent::adopt(LocalTime now, Outputs& out) {
   const std::optional<SwarmTime> time = swarm_time(now);
   if (!time) return;
-  const bool newer = term_ > course_term_ || course.revision > course_.revision || course_.base.number.none();
-  protocol::Course wanted = course;
-  protocol::settle(wanted, *time);
-  // Without one of its plans there is no reference: a course is flown whole or not at all.
-  if (newer && reference(wanted, *time) && merge_to(now, wanted)) {
-    course_ = wanted;
-    course_term_ = term_;
-  }
   const std::uint64_t confirmed_before = confirmed_;
-  confirm_proposal(*time);
-  if (confirmed_ != confirmed_before) out.status = status(now);
+  if (const auto& proposal = heard_->proposal; proposal && confirms(*proposal)) confirmed_ = proposal->revision;
+  const bool confirmed = confirmed_ != confirmed_before;
+
+  protocol::Course wanted = heard_->course;
+  const bool newer = wanted.newer_than(course_) || course_.none();
+  bool flown = false;
+  if (newer || (wanted.lease != course_.lease && !course_.newer_than(wanted))) {
+    protocol::settle(wanted, *time);
+    // Without one of its plans there is no reference: a course is flown whole or not at all.
+    flown = reference(wanted, *time) && merge_to(now, wanted);
+    if (flown) course_ = wanted;
+  }
+  if ((flown && newer) || confirmed) awaited_until_ = now + options_.awaited;
+  // The coordinator extends the lease only when all have said that they hold it.
+  if (flown || confirmed) out.status = status(now);
+}
+
+/// Whether it can fly what is proposed.
+bool Agent::confirms(const protocol::Course& proposal) const {
+  if (proposal.term != term_ || proposal.revision == confirmed_ || !proposal.newer_than(course_)) return false;
+  const auto plans = protocol::plans_of(proposal);
+  if (plans_.find(plans.back()) == nullptr) return false;
+  const protocol::Ramp& ramp = proposal.pace.ramps.back();
+  return proposal.pace == course_.pace || plans_.flies(plans.back(), ramp);
 }
 
 Path Agent::path(const protocol::Course& course) const {
@@ -180,20 +238,33 @@ Path Agent::path(const protocol::Course& course) const {
   path.at = [this, &course, k = slice.cable_stiffness_n_m](SwarmTime at) {
     return command_of(*reference(course, at), k);
   };
-  if (plain(course) && mechanics::moves(slice))
-    path.period = from_seconds(std::min(kTwoPi / slice.rate_rad_s, kLongestPeriod_s));
+  // One plan's motion at one pace and nothing else, now and before.
+  const double pace = course.pace.target();
+  const bool plain = course.transitions.empty() && course.pace.ramps.size() == 1 &&
+                     course.pace.ramps.front().duration == Duration::zero();
+  if (plain && pace > 0.0 && mechanics::moves(slice))
+    path.period = from_seconds(std::min(kTwoPi / slice.rate_rad_s / pace, kLongestPeriod_s));
   return path;
 }
 
+/// Whether to fly `course` from now on; it begins where the carrier is.
 bool Agent::merge_to(LocalTime now, const protocol::Course& course) {
   const SwarmTime time = clock_.at(now);
   if (reference(course_, time)) {
-    const bool another = !(course.base == course_.base && plain(course) && plain(course_));
+    // The same plans, at the same moment of them: it goes on as it did, whatever is to come.
+    const protocol::PlanMoment flown = course_.moment(time);
+    const protocol::PlanMoment wanted = course.moment(time);
+    const bool same = course.base == course_.base && course.transitions == course_.transitions &&
+                      std::abs((flown.at - wanted.at).count()) <= kRounding.count() &&
+                      std::abs(flown.pace - wanted.pace) <= kNoPace &&
+                      std::abs(flown.rate_1_s - wanted.rate_1_s) <= kNoPace;
+    // A delay that is being made up for belongs to the course it was measured on.
+    const bool another = !same || (course.newer_than(course_) && merge_.under_way(time));
     if (another) merge_.begin(time, merge_.apply(time, path(course_)), path(course));
     return true;
   }
   if (!wants_vehicle_since_) wants_vehicle_since_ = now;
-  if (vehicle_) {
+  if (vehicle_ && now - vehicle_heard_ <= options_.vehicle_timeout) {
     begin_at_the_vehicle(now, path(course));
   } else if (now - *wants_vehicle_since_ < options_.vehicle_wait) {
     return false;
@@ -220,15 +291,8 @@ bool Agent::back_at_the_vehicle(LocalTime now) {
 
 void Agent::begin_at_the_vehicle(LocalTime now, const Path& path) {
   merge_.begin(clock_.at(now), command_of(*vehicle_, seconds(now - vehicle_heard_)), path);
+  steps_.forget();  // it was silent, and what it said before was not flown
   flown_at_ = now;  // a stall before the first setpoint is one, too
-}
-
-void Agent::confirm_proposal(SwarmTime now) {
-  for (const protocol::Transition& t : course_.transitions) {
-    if (t.stage == Stage::kProposed && t.start > now && plans_.find(t.to.number) != nullptr) {
-      confirmed_ = std::max(confirmed_, t.id);
-    }
-  }
 }
 
 void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
@@ -245,16 +309,27 @@ void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
   if (!accepts_term(reply.term, out)) return;
   requests_answered_ = reply.sequence;  // believed or not: a copy of a lie is not a second witness
   const bool before = clock_.synchronised();
-  const auto verdict =
+  std::optional<Command> flown;
+  if (before && reference(course_, clock_.at(now))) flown = merge_.apply(clock_.at(now), path(course_));
+  using Verdict = protocol::Timekeeper::Verdict;
+  const Verdict verdict =
       clock_.observe({reply.request_sent, reply.request_received, reply.reply_sent, event.arrived}, now);
-  if (verdict != protocol::Timekeeper::Verdict::kTaken) {
+  if (verdict == Verdict::kFoundAnew) {
+    out.notices.push_back({Notice::Level::kWarning,
+                           "a clock jumped, this one or the coordinator's: swarm time was found "
+                           "anew"});
+    // The carrier is where the last setpoint led it, or has gone on by itself: where that is, it has to tell.
+    if (flown && reference(course_, clock_.at(now))) merge_.begin(clock_.at(now), *flown, path(course_));
+    awake_since_ = now;
+    vehicle_.reset();
+  } else if (verdict != Verdict::kTaken) {
     ++dropped_.nonsense;
     return;
   }
   if (!before && clock_.synchronised()) {
     out.notices.push_back(
         {Notice::Level::kInfo, text("swarm time found, uncertain by %.3f ms", 1e3 * seconds(clock_.uncertainty(now)))});
-    if (heard_) adopt(now, heard_->course, out);
+    if (heard_) adopt(now, out);
     out.status = status(now);  // the coordinator is waiting for that, too
   }
 }
@@ -280,10 +355,7 @@ bool Agent::is_lost(LocalTime now) const {
 }
 
 std::optional<mechanics::Reference> Agent::reference(const protocol::Course& course, SwarmTime now) const {
-  const auto stack =
-      protocol::layers(course, now, [this](const protocol::PlanNumber& number) { return plans_.find(number); });
-  if (stack.empty()) return std::nullopt;
-  return mechanics::evaluate_course(stack.data(), stack.size(), 0.0);
+  return protocol::reference(course, now, [this](const protocol::PlanNumber& number) { return plans_.find(number); });
 }
 
 protocol::Setpoint Agent::setpoint(SwarmTime now, const mechanics::Reference& r) {
@@ -303,65 +375,6 @@ protocol::Setpoint Agent::setpoint(SwarmTime now, const mechanics::Reference& r)
   s.winch_length_m = command.winch_m.value;
   s.winch_rate_m_s = command.winch_m.first;
   s.winch_acceleration_m_s2 = command.winch_m.second;
-  return s;
-}
-
-protocol::AgentState Agent::state(LocalTime now) const {
-  const std::optional<SwarmTime> time = swarm_time(now);
-  const mechanics::CarrierSlice* slice = plans_.find(course_.base.number);
-  if (!time || slice == nullptr) return protocol::AgentState::kWaiting;
-  if (coordinator_.silent(now)) return protocol::AgentState::kAlone;
-  return mechanics::moves(*slice) || protocol::in_transition(course_, *time) ? protocol::AgentState::kFlying
-                                                                             : protocol::AgentState::kReady;
-}
-
-std::optional<std::string> Agent::complaint(LocalTime now) const {
-  if (!coordinator_.ever_heard()) return "no coordinator was heard";
-  if (coordinator_.silent(now)) {
-    return text("the coordinator is silent since %.1f s", seconds(now - *coordinator_.last()));
-  }
-  if (!clock_.synchronised()) return "swarm time was not found";
-  if (plans_.find(course_.base.number) == nullptr) return "has no plan yet";
-  const Duration budget = heard_ ? heard_->skew_budget : Duration::zero();
-  const Duration uncertainty = clock_.uncertainty(now);
-  // Another agent's clock may be as wrong, the other way.
-  if (budget > Duration::zero() && uncertainty > budget / 2) {
-    return text("its clock may be wrong by %.3g ms, the plan in force allows %.3g ms", 1e3 * seconds(uncertainty),
-                1e3 * seconds(budget / 2));
-  }
-  if (vehicle_ && now - vehicle_heard_ > options_.vehicle_timeout) {
-    return text("its vehicle is silent since %.1f s", seconds(now - vehicle_heard_));
-  }
-  return std::nullopt;
-}
-
-bool Agent::is_awaited(LocalTime now) const {
-  const std::optional<SwarmTime> time = swarm_time(now);
-  return time && std::any_of(course_.transitions.begin(), course_.transitions.end(), [&](const auto& transition) {
-           return *time < transition.start + options_.awaited_after_start;
-         });
-}
-
-protocol::AgentStatus Agent::status(LocalTime now) {
-  next_status_ = now + (is_awaited(now) ? options_.status_period_awaited : options_.status_period);
-  protocol::AgentStatus s;
-  s.carrier = options_.carrier;
-  s.incarnation = options_.incarnation;
-  s.sequence = ++statuses_;
-  s.term = term_;
-  s.state = state(now);
-  if (const auto time = swarm_time(now)) s.swarm_time = *time;
-  s.clock_uncertainty = clock_.uncertainty(now);
-  s.clock_drift_ppm = clock_.drift_ppm();
-  s.course = course_;
-  s.confirmed = confirmed_;
-  s.accepted = plans_.accepted();
-  s.refused = plans_.refused();
-  s.refusal = plans_.refusal().substr(0, protocol::kMaxTextBytes);
-  s.beacons_received = beacons_received_;
-  s.beacons_missed = beacons_missed_;
-  s.dropped = dropped_;
-  s.dropped.nonsense += undecodable_;
   return s;
 }
 

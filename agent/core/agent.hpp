@@ -12,8 +12,10 @@
 
 #include "agent/core/merge.hpp"
 #include "agent/core/plan_store.hpp"
+#include "agent/core/step_judge.hpp"
 #include "common/base/notice.hpp"
 #include "common/mechanics/reference.hpp"
+#include "common/protocol/counting.hpp"
 #include "common/protocol/liveness.hpp"
 #include "common/protocol/messages.hpp"
 #include "common/protocol/timekeeper.hpp"
@@ -26,14 +28,16 @@ struct AgentOptions {
   mechanics::Limits vehicle;      ///< what this vehicle can do
   Duration control_period = std::chrono::milliseconds(10);
   Duration status_period = std::chrono::milliseconds(100);
-  /// While a transition is agreed, and until the coordinator has seen that all have begun it, it waits for every word:
-  /// at 60 % loss one in ten agents would not be heard in time otherwise.
+  /// While a change is agreed, and until the coordinator has seen that all have begun it, it waits for every word: at
+  /// 60 % loss one in ten agents would not be heard in time otherwise.
   Duration status_period_awaited = std::chrono::milliseconds(25);
-  Duration awaited_after_start = std::chrono::milliseconds(500);
+  Duration awaited = std::chrono::milliseconds(1500);  ///< since a proposal or a new course was first heard
   Duration request_period = std::chrono::milliseconds(125);
   Duration request_period_at_start = std::chrono::milliseconds(20);
   Duration coordinator_timeout = std::chrono::milliseconds(500);
-  Duration beacon_age_max = std::chrono::seconds(1);  ///< and what this clock may be wrong by
+  Duration beacon_age_max = std::chrono::milliseconds(300);   ///< and what this clock may be wrong by
+  Duration beacon_ahead_max = std::chrono::milliseconds(50);  ///< of the time here, and what that may be wrong by
+  Duration doubt = std::chrono::milliseconds(500);            ///< since a beacon that came from the future
   /// A restarted agent waits so long for its vehicle to tell where it is, rather than fly a step.
   Duration vehicle_wait = std::chrono::milliseconds(500);
   /// A vehicle that told where it is, and does not any more, is silent. One that never tells is flown all the same.
@@ -47,6 +51,7 @@ struct AgentOptions {
   /// After that it listens so long before it believes where the vehicle is: old states have waited for it. And it says
   /// nothing: who hears a setpoint somewhere else after a silence does not take it for a step.
   Duration backlog = std::chrono::milliseconds(150);
+  Duration complained = std::chrono::seconds(5);  ///< of a setpoint that was withheld, since the last one
   protocol::TimekeeperOptions timekeeper;
 };
 
@@ -81,6 +86,11 @@ class Agent {
   [[nodiscard]] std::optional<std::string> complaint(LocalTime now) const;
 
  private:
+  /// A course of so many changes later is believed at once, and an offer's number remembered: more are not agreed in
+  /// the seconds that anybody misses.
+  static constexpr std::uint64_t kFurthestRevision = 16;
+  static constexpr std::uint64_t kFurthestOffer = 100;
+
   void on(LocalTime now, const Tick& tick, Outputs& out);
   void on(LocalTime now, const protocol::Beacon& beacon, Outputs& out);
   void on(LocalTime now, const protocol::PlanOffer& offer, Outputs& out);
@@ -88,7 +98,9 @@ class Agent {
   void on(LocalTime now, const protocol::CarrierState& state, Outputs& out);
 
   [[nodiscard]] bool accepts_term(std::uint64_t term, Outputs& out);
-  void adopt(LocalTime now, const protocol::Course& course, Outputs& out);
+  void send(LocalTime now, const protocol::Setpoint& setpoint, Outputs& out);
+  void take_early_offer(LocalTime now, Outputs& out);
+  void adopt(LocalTime now, Outputs& out);
   /// Whether to fly `course` from now on; it begins where the carrier is.
   [[nodiscard]] bool merge_to(LocalTime now, const protocol::Course& course);
   [[nodiscard]] bool back_at_the_vehicle(LocalTime now);
@@ -97,30 +109,42 @@ class Agent {
   [[nodiscard]] bool is_lost(LocalTime now) const;
   /// Of a course whose plans are held; lives no longer than the course.
   [[nodiscard]] Path path(const protocol::Course& course) const;
-  void confirm_proposal(SwarmTime now);
+  [[nodiscard]] bool confirms(const protocol::Course& proposal) const;
   [[nodiscard]] std::optional<mechanics::Reference> reference(const protocol::Course& course, SwarmTime now) const;
   [[nodiscard]] protocol::Setpoint setpoint(SwarmTime now, const mechanics::Reference& reference);
   [[nodiscard]] protocol::AgentStatus status(LocalTime now);
-  [[nodiscard]] bool is_awaited(LocalTime now) const;
   [[nodiscard]] protocol::AgentState state(LocalTime now) const;
   [[nodiscard]] std::optional<SwarmTime> swarm_time(LocalTime now) const;
 
   AgentOptions options_;
   protocol::Timekeeper clock_;
   PlanStore plans_;
+  std::uint64_t offers_taken_ = 0;                  ///< the newest offer of this term
+  std::optional<protocol::PlanOffer> early_offer_;  ///< of a term that is not believed yet: none is said twice
+  std::vector<protocol::NumberedSlice> neighbour_;  ///< kept for the carrier after this one
   Merge merge_;
+  StepJudge steps_;
+  struct Withheld {
+    LocalTime at;
+    std::string why;
+  };
+  std::optional<Withheld> withheld_;  ///< the last setpoint that was not sent
   protocol::Liveness coordinator_;
 
   std::uint64_t term_ = 0;
+  protocol::TermJudge terms_;
+  protocol::SequenceJudge beacons_;  ///< of this term
+  protocol::LeapJudge revisions_{kFurthestRevision};
   std::optional<protocol::Beacon> heard_;  ///< the newest beacon of this term: what the coordinator wants
   protocol::Course course_;                ///< what is flown
-  std::uint64_t course_term_ = 0;
   std::uint64_t confirmed_ = 0;
+  LocalTime awaited_until_ = LocalTime::min();
   std::optional<protocol::CarrierState> vehicle_;  ///< where the carrier really is
   LocalTime vehicle_heard_{};
   std::optional<LocalTime> wants_vehicle_since_;
   std::optional<LocalTime> flown_at_;  ///< the last setpoint, or where the vehicle was when it began
   std::optional<LocalTime> awake_since_;
+  std::optional<LocalTime> doubted_at_;
 
   std::uint64_t setpoints_ = 0;
   std::uint64_t statuses_ = 0;

@@ -11,6 +11,7 @@ namespace gyre::agent {
 namespace {
 
 using mechanics::curvature_left;
+using mechanics::paced;
 using mechanics::slope_left;
 using mechanics::value_left;
 using Number = mechanics::Taylor<double>;
@@ -52,15 +53,6 @@ constexpr double kMadeUp = mechanics::kSlopeLeftReturnPeak;
 /// has not just fallen behind.
 constexpr double kWorthIt_m = 0.01;
 constexpr double kBeside = 0.5;
-
-/// The same motion at another pace: x(s(t)), where ds/dt = pace, d²s/dt² = its change.
-template <class Quantity>
-Quantity paced(const Quantity& x, double pace, double change) {
-  Quantity out = x;
-  out.first = pace * x.first;
-  out.second = pace * pace * x.second + change * x.first;
-  return out;
-}
 
 double distance_m(const Command& a, const Command& b) {
   return std::hypot((a.position_w_m.value - b.position_w_m.value).norm(), a.winch_m.value - b.winch_m.value);

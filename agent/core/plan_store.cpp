@@ -46,6 +46,15 @@ const mechanics::CarrierSlice* PlanStore::find(const PlanNumber& number) const {
   return found == accepted_.end() ? nullptr : &found->slice;
 }
 
+bool PlanStore::flies(const PlanNumber& number, const protocol::Ramp& ramp) const {
+  const mechanics::CarrierSlice* slice = find(number);
+  if (slice == nullptr) return false;
+  if (!vehicle_.acceleration_max_m_s2) return true;
+  const mechanics::CarrierFigures figures = mechanics::orbit_figures(*slice);
+  const auto peak = protocol::peaks(ramp, figures.speed_m_s.max, figures.acceleration_max_m_s2);
+  return peak.acceleration_m_s2 <= *vehicle_.acceleration_max_m_s2 * (1.0 + 1e-4);  // what is at the limit keeps it
+}
+
 std::vector<NumberedSlice> PlanStore::held() const {
   const std::size_t told = std::min(accepted_.size(), protocol::kMaxPlans);
   return {accepted_.end() - static_cast<std::ptrdiff_t>(told), accepted_.end()};

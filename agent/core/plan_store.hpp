@@ -25,6 +25,8 @@ class PlanStore {
   /// The newest kMaxPlans of them. An agent that missed changes holds what it flies besides what is offered, which can
   /// be more than a message takes; the old ones are of no use to anybody else.
   [[nodiscard]] std::vector<protocol::NumberedSlice> held() const;
+  /// Whether this vehicle can change its pace like that, by a plan that is held.
+  [[nodiscard]] bool flies(const protocol::PlanNumber& number, const protocol::Ramp& ramp) const;
   [[nodiscard]] std::vector<protocol::PlanNumber> accepted() const;
   /// The newest plan this vehicle cannot fly and why; number none() when there is none.
   [[nodiscard]] const protocol::PlanNumber& refused() const { return refused_; }

@@ -1,7 +1,7 @@
 #pragma once
-// Two clocks that must never be mixed, as two types that cannot be.
+// Clocks that must never be mixed, as types that cannot be.
 //
-// Neither can be read here: a core is told the time, it never asks. Only mains read a clock.
+// None can be read here: a core is told the time, it never asks. Only mains read a clock.
 
 #include <chrono>
 
@@ -27,8 +27,19 @@ struct SwarmClock {
   static constexpr bool is_steady = true;  // NOLINT(readability-identifier-naming): the standard's name
 };
 
+/// The clock that plans run on. It passes at the pace of the phase (protocol/pace.hpp): as swarm time does in full
+/// motion, and not at all at rest.
+struct PlanClock {
+  using duration = Duration;
+  using rep = duration::rep;
+  using period = duration::period;
+  using time_point = std::chrono::time_point<PlanClock, duration>;
+  static constexpr bool is_steady = false;  // NOLINT(readability-identifier-naming): the standard's name
+};
+
 using LocalTime = LocalClock::time_point;
 using SwarmTime = SwarmClock::time_point;
+using PlanTime = PlanClock::time_point;
 
 /// Seventy years: no clock here shows more, and the difference of two differences within it cannot overflow.
 inline constexpr Duration kLongest = std::chrono::hours(24 * 365 * 70);

@@ -7,29 +7,30 @@ namespace gyre::dds {
 namespace idl = fast::idl;
 
 // The bounds of gyre_msgs.idl, which has to repeat the protocol's as literals.
-static_assert(protocol::kMaxTransitions == 4 && protocol::kMaxPlans == 7, "the sequences of gyre_msgs.idl");
+static_assert(protocol::kMaxTransitions == 4 && protocol::kMaxRamps == 4 && protocol::kMaxPlans == 7,
+              "the sequences of gyre_msgs.idl");
 static_assert(kMaxCarrierId == 100, "the silent carriers of gyre_msgs.idl");
 static_assert(protocol::kMaxTextBytes == 255 && protocol::kMaxMissionBytes == 32768, "the strings of gyre_msgs.idl");
 
 namespace {
 
-// The list of slices that an offer and what is held of it have in common.
-template <class WireMessage>
-[[nodiscard]] bool put_slices(const std::vector<protocol::NumberedSlice>& slices, WireMessage& wire) {
+// The lists of slices that an offer and what is held of it have in common.
+template <class WireSlices>
+[[nodiscard]] bool put_slices(const std::vector<protocol::NumberedSlice>& slices, WireSlices& wire) {
   if (slices.size() > protocol::kMaxPlans) return false;
   for (const protocol::NumberedSlice& numbered : slices) {
-    idl::NumberedSlice& entry = wire.slices().emplace_back();
+    idl::NumberedSlice& entry = wire.emplace_back();
     entry.number(to_wire(numbered.number));
     entry.slice(to_wire(numbered.slice));
   }
   return true;
 }
 
-template <class WireMessage>
-[[nodiscard]] std::optional<std::vector<protocol::NumberedSlice>> slices_of(const WireMessage& wire) {
-  if (wire.slices().size() > protocol::kMaxPlans) return std::nullopt;
+template <class WireSlices>
+[[nodiscard]] std::optional<std::vector<protocol::NumberedSlice>> slices_of(const WireSlices& wire) {
+  if (wire.size() > protocol::kMaxPlans) return std::nullopt;
   std::vector<protocol::NumberedSlice> slices;
-  for (const idl::NumberedSlice& entry : wire.slices()) {
+  for (const idl::NumberedSlice& entry : wire) {
     const auto slice = from_wire(entry.slice());
     if (!slice) return std::nullopt;
     slices.push_back({from_wire(entry.number()), *slice});
@@ -59,43 +60,60 @@ std::optional<idl::Beacon> encode(const protocol::Beacon& message) {
   wire.sequence_number(message.sequence);
   wire.swarm_time_ns(ns(message.swarm_time));
   wire.course(*course);
+  if (message.proposal) {
+    const auto proposal = to_wire(*message.proposal);
+    if (!proposal) return std::nullopt;
+    wire.proposal().push_back(*proposal);
+  }
   wire.skew_budget_ns(message.skew_budget.count());
   return wire;
 }
 
 std::optional<protocol::Beacon> decode(const idl::Beacon& wire) {
   const auto course = from_wire(wire.course());
-  if (!course) return std::nullopt;
-  return protocol::Beacon{wire.term(), wire.sequence_number(), swarm(wire.swarm_time_ns()), *course,
-                          Duration(wire.skew_budget_ns())};
+  if (!course || wire.proposal().size() > 1) return std::nullopt;
+  protocol::Beacon message{wire.term(), wire.sequence_number(), swarm(wire.swarm_time_ns()),
+                           *course,     std::nullopt,           Duration(wire.skew_budget_ns())};
+  if (!wire.proposal().empty()) {
+    message.proposal = from_wire(wire.proposal().front());
+    if (!message.proposal) return std::nullopt;
+  }
+  return message;
 }
 
 std::optional<idl::PlanOffer> encode(const protocol::PlanOffer& message) {
   idl::PlanOffer wire;
   wire.carrier(message.carrier);
   wire.term(message.term);
-  if (!put_slices(message.slices, wire)) return std::nullopt;
+  wire.sequence_number(message.sequence);
+  if (!put_slices(message.slices, wire.slices()) || !put_slices(message.neighbour, wire.neighbour())) {
+    return std::nullopt;
+  }
   return wire;
 }
 
 std::optional<protocol::PlanOffer> decode(const idl::PlanOffer& wire) {
-  const auto slices = slices_of(wire);
-  if (!slices) return std::nullopt;
-  return protocol::PlanOffer{wire.carrier(), wire.term(), *slices};
+  const auto slices = slices_of(wire.slices());
+  const auto neighbour = slices_of(wire.neighbour());
+  if (!slices || !neighbour) return std::nullopt;
+  return protocol::PlanOffer{wire.carrier(), wire.term(), wire.sequence_number(), *slices, *neighbour};
 }
 
 std::optional<idl::HeldPlans> encode(const protocol::HeldPlans& message) {
   idl::HeldPlans wire;
   wire.carrier(message.carrier);
   wire.incarnation(message.incarnation);
-  if (!put_slices(message.slices, wire)) return std::nullopt;
+  if (!put_slices(message.slices, wire.slices()) || !put_slices(message.neighbour, wire.neighbour())) {
+    return std::nullopt;
+  }
   return wire;
 }
 
 std::optional<protocol::HeldPlans> decode(const idl::HeldPlans& wire) {
-  const auto slices = slices_of(wire);
-  if (!slices) return std::nullopt;
-  return protocol::HeldPlans{wire.carrier(), wire.incarnation(), *slices};
+  const auto slices = slices_of(wire.slices());
+  const auto neighbour = slices_of(wire.neighbour());
+  if (!slices || !neighbour) return std::nullopt;
+  return protocol::HeldPlans{wire.carrier(), wire.incarnation(), *slices, *neighbour};
 }
 
 std::optional<idl::TimeRequest> encode(const protocol::TimeRequest& message) {
@@ -272,14 +290,19 @@ std::optional<idl::Command> encode(const protocol::Command& message) {
   idl::Command wire;
   wire.id(message.id);
   wire.kind(static_cast<std::uint8_t>(message.kind));
+  wire.pace(message.pace);
+  wire.at_phase(message.phase_rad.has_value());
+  wire.phase_rad(message.phase_rad.value_or(0.0));
   wire.mission(message.mission);
   return wire;
 }
 
 std::optional<protocol::Command> decode(const idl::Command& wire) {
-  const auto kind = enumerator(wire.kind(), protocol::CommandKind::kEngage, protocol::CommandKind::kRetune);
+  const auto kind = enumerator(wire.kind(), protocol::CommandKind::kEngage, protocol::CommandKind::kPace);
   if (!kind) return std::nullopt;
-  return protocol::Command{wire.id(), *kind, wire.mission().to_string()};
+  protocol::Command message{wire.id(), *kind, wire.pace(), std::nullopt, wire.mission().to_string()};
+  if (wire.at_phase()) message.phase_rad = wire.phase_rad();
+  return message;
 }
 
 std::optional<idl::CommandReply> encode(const protocol::CommandReply& message) {
@@ -300,8 +323,7 @@ std::optional<idl::CoordinatorStatus> encode(const protocol::CoordinatorStatus& 
   wire.term(message.term);
   wire.swarm_time_ns(ns(message.swarm_time));
   wire.mission(fitting_text(message.mission, protocol::kMaxTextBytes));
-  wire.rest(to_wire(message.rest));
-  wire.motion(to_wire(message.motion));
+  wire.plan(to_wire(message.plan));
   wire.skew_budget_ns(message.skew_budget.count());
   wire.skew_ns(message.skew.count());
   wire.carriers(message.carriers);
@@ -316,8 +338,7 @@ std::optional<protocol::CoordinatorStatus> decode(const idl::CoordinatorStatus& 
   message.term = wire.term();
   message.swarm_time = swarm(wire.swarm_time_ns());
   message.mission = wire.mission().to_string();
-  message.rest = from_wire(wire.rest());
-  message.motion = from_wire(wire.motion());
+  message.plan = from_wire(wire.plan());
   message.skew_budget = Duration(wire.skew_budget_ns());
   message.skew = Duration(wire.skew_ns());
   message.carriers = wire.carriers();

@@ -12,29 +12,43 @@ using dds::to_wire;
 idl::TimedPlan to_wire(const protocol::TimedPlan& plan) {
   idl::TimedPlan wire;
   wire.number(to_wire(plan.number));
-  wire.swarm_epoch_ns(ns(plan.epoch));
+  wire.plan_epoch_ns(ns(plan.epoch));
   return wire;
 }
 
 protocol::TimedPlan from_wire(const idl::TimedPlan& wire) {
-  return {from_wire(wire.number()), swarm(wire.swarm_epoch_ns())};
+  return {from_wire(wire.number()), plan_time(wire.plan_epoch_ns())};
 }
 
 idl::Transition to_wire(const protocol::Transition& transition) {
   idl::Transition wire;
-  wire.id(transition.id);
   wire.to(to_wire(transition.to));
-  wire.swarm_start_ns(ns(transition.start));
-  wire.duration_ns(transition.duration.count());
-  wire.stage(static_cast<std::uint8_t>(transition.stage));
+  wire.plan_start_ns(ns(transition.start));
+  wire.plan_duration_ns(transition.duration.count());
   return wire;
 }
 
-std::optional<protocol::Transition> from_wire(const idl::Transition& wire) {
-  const auto stage = enumerator(wire.stage(), protocol::Stage::kProposed, protocol::Stage::kGo);
-  if (!stage) return std::nullopt;
-  return protocol::Transition{wire.id(), from_wire(wire.to()), swarm(wire.swarm_start_ns()),
-                              Duration(wire.duration_ns()), *stage};
+protocol::Transition from_wire(const idl::Transition& wire) {
+  return {from_wire(wire.to()), plan_time(wire.plan_start_ns()), Duration(wire.plan_duration_ns())};
+}
+
+idl::Ramp to_wire(const protocol::Ramp& ramp) {
+  idl::Ramp wire;
+  wire.swarm_start_ns(ns(ramp.start));
+  wire.duration_ns(ramp.duration.count());
+  wire.plan_from_ns(ns(ramp.from.at));
+  wire.from_pace(ramp.from.pace);
+  wire.from_rate_1_s(ramp.from.rate_1_s);
+  wire.from_curvature_1_s2(ramp.from.curvature_1_s2);
+  wire.target_pace(ramp.target);
+  return wire;
+}
+
+protocol::Ramp from_wire(const idl::Ramp& wire) {
+  return {swarm(wire.swarm_start_ns()),
+          Duration(wire.duration_ns()),
+          {plan_time(wire.plan_from_ns()), wire.from_pace(), wire.from_rate_1_s(), wire.from_curvature_1_s2()},
+          wire.target_pace()};
 }
 
 idl::EdgePush to_wire(const mechanics::EdgePush& push) {
@@ -96,21 +110,35 @@ protocol::PlanNumber from_wire(const idl::PlanNumber& wire) {
 
 std::optional<idl::Course> to_wire(const protocol::Course& course) {
   if (course.transitions.size() > protocol::kMaxTransitions) return std::nullopt;
+  if (course.pace.ramps.size() > protocol::kMaxRamps) return std::nullopt;
   idl::Course wire;
+  wire.term(course.term);
   wire.revision(course.revision);
+  wire.wish().pace(course.wish.pace);
+  wire.wish().rest_when_changed(course.wish.rest_when_changed);
+  wire.wish().by(static_cast<std::uint8_t>(course.wish.by));
+  for (const protocol::Ramp& ramp : course.pace.ramps) wire.pace().push_back(to_wire(ramp));
+  if (course.lease) wire.swarm_lease_ns().push_back(ns(*course.lease));
+  wire.stopping_ns(course.stopping.count());
   wire.base(to_wire(course.base));
   for (const protocol::Transition& transition : course.transitions) wire.transitions().push_back(to_wire(transition));
   return wire;
 }
 
 std::optional<protocol::Course> from_wire(const idl::Course& wire) {
-  if (wire.transitions().size() > protocol::kMaxTransitions) return std::nullopt;
-  protocol::Course course{wire.revision(), from_wire(wire.base()), {}};
-  for (const idl::Transition& wire_transition : wire.transitions()) {
-    const auto transition = from_wire(wire_transition);
-    if (!transition) return std::nullopt;
-    course.transitions.push_back(*transition);
-  }
+  const auto by = enumerator(wire.wish().by(), protocol::Wisher::kNobody, protocol::Wisher::kEvidence);
+  if (!by || wire.transitions().size() > protocol::kMaxTransitions) return std::nullopt;
+  if (wire.pace().size() > protocol::kMaxRamps || wire.swarm_lease_ns().size() > 1) return std::nullopt;
+  protocol::Course course;
+  course.term = wire.term();
+  course.revision = wire.revision();
+  course.wish = {wire.wish().pace(), wire.wish().rest_when_changed(), *by};
+  course.pace.ramps.clear();
+  for (const idl::Ramp& ramp : wire.pace()) course.pace.ramps.push_back(from_wire(ramp));
+  if (!wire.swarm_lease_ns().empty()) course.lease = swarm(wire.swarm_lease_ns().front());
+  course.stopping = Duration(wire.stopping_ns());
+  course.base = from_wire(wire.base());
+  for (const idl::Transition& transition : wire.transitions()) course.transitions.push_back(from_wire(transition));
   return course;
 }
 

@@ -16,6 +16,12 @@ namespace gyre::dds {
 [[nodiscard]] inline std::int64_t ns(LocalTime time) {
   return time.time_since_epoch().count();
 }
+[[nodiscard]] inline std::int64_t ns(PlanTime time) {
+  return time.time_since_epoch().count();
+}
+[[nodiscard]] inline PlanTime plan_time(std::int64_t ns) {
+  return PlanTime(Duration(ns));
+}
 [[nodiscard]] inline SwarmTime swarm(std::int64_t ns) {
   return SwarmTime(Duration(ns));
 }

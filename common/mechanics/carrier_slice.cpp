@@ -1,11 +1,41 @@
 #include "common/mechanics/carrier_slice.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <unordered_map>
 
 #include "common/base/ensure.hpp"
 #include "common/mechanics/grasp.hpp"
 
 namespace gyre::mechanics {
+namespace {
+
+/// Newtons, metres, radians and their rates, of the size that they have here: rounding is a thousand times less.
+bool alike(double a, double b) {
+  return std::abs(a - b) <= 1e-9 * std::max({1.0, std::abs(a), std::abs(b)});
+}
+bool alike(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return alike(a.x(), b.x()) && alike(a.y(), b.y()) && alike(a.z(), b.z());
+}
+bool alike(const EdgePush& a, const EdgePush& b) {
+  return alike(a.direction, b.direction) && alike(a.offset_n, b.offset_n) && alike(a.amplitude_n, b.amplitude_n) &&
+         alike(a.phase_rad, b.phase_rad);
+}
+bool alike(const LengthLaw& a, const LengthLaw& b) {
+  return a.kind == b.kind && alike(a.direction, b.direction) && alike(a.profile.mean, b.profile.mean) &&
+         alike(a.profile.swing, b.profile.swing) && alike(a.profile.phase_rad, b.profile.phase_rad) &&
+         a.profile.harmonic.numerator == b.profile.harmonic.numerator &&
+         a.profile.harmonic.denominator == b.profile.harmonic.denominator;
+}
+
+}  // namespace
+
+bool alike(const CarrierSlice& a, const CarrierSlice& b) {
+  return a.id == b.id && alike(a.attachment_w_m, b.attachment_w_m) &&
+         alike(a.particular_force_w_n, b.particular_force_w_n) && alike(a.incoming, b.incoming) &&
+         alike(a.outgoing, b.outgoing) && alike(a.rate_rad_s, b.rate_rad_s) && alike(a.law, b.law) &&
+         alike(a.cable_stiffness_n_m, b.cable_stiffness_n_m);
+}
 
 std::vector<CarrierSlice> slices(const Plan& plan) {
   if (plan.carriers.empty()) return {};

@@ -58,6 +58,9 @@ struct CarrierSlice {
   return c.incoming.amplitude_n != 0.0 || c.outgoing.amplitude_n != 0.0 || !c.law.profile.constant();
 }
 
+/// But for rounding: the same plan, worked out on another machine.
+[[nodiscard]] bool alike(const CarrierSlice& a, const CarrierSlice& b);
+
 /// One slice per carrier, in the plan's order of carriers; none for a plan without. An edge whose end is no carrier of
 /// the plan is a bug of the caller's (GYRE_ENSURE): `certify` refuses such a plan.
 [[nodiscard]] std::vector<CarrierSlice> slices(const Plan& plan);

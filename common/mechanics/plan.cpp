@@ -6,16 +6,6 @@
 #include "common/base/angle.hpp"
 
 namespace gyre::mechanics {
-namespace {
-
-Oscillation held(const Oscillation& oscillation, double theta_rad) {
-  Oscillation still = oscillation;
-  still.mean += oscillation.swing * std::sin(oscillation.harmonic.ratio() * theta_rad + oscillation.phase_rad);
-  still.swing = 0.0;
-  return still;
-}
-
-}  // namespace
 
 LengthLaw LengthLaw::level(double altitude_m) {
   return {Kind::kLevel, Eigen::Vector3d::UnitZ(), Oscillation{altitude_m, 0.0, {}, 0.0}};
@@ -61,16 +51,6 @@ double period_s(const Plan& plan) {
     if (!carrier.law.profile.constant()) turns = std::lcm(turns, carrier.law.profile.harmonic.denominator);
   }
   return turns * kTwoPi / plan.cycle.rate_rad_s;
-}
-
-Plan static_plan(const Plan& plan, double theta_rad) {
-  Plan still = plan;
-  for (Edge& edge : still.cycle.edges) {
-    edge.offset_n += edge.amplitude_n * std::sin(theta_rad + edge.phase_rad);
-    edge.amplitude_n = 0.0;
-  }
-  for (Carrier& carrier : still.carriers) carrier.law.profile = held(carrier.law.profile, theta_rad);
-  return still;
 }
 
 }  // namespace gyre::mechanics

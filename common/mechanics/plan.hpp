@@ -87,7 +87,4 @@ struct Plan {
 /// Seconds after which the whole motion repeats: the cycle's period times the denominators of the laws' harmonics.
 [[nodiscard]] double period_s(const Plan& plan);
 
-/// The same load held still as it is held at phase theta: the equilibrium that includes a carrier stuck there.
-[[nodiscard]] Plan static_plan(const Plan& plan, double theta_rad);
-
 }  // namespace gyre::mechanics

@@ -61,6 +61,17 @@ template <class S>
   return 0.5 * (square * (constant(S(1)) - x * (constant(S(3)) - 3.0 * x + square)));
 }
 
+/// The integrals of v, s and c from 0 to x.
+[[nodiscard]] constexpr double value_left_integral(double x) {
+  return x - smooth_step_integral(x);
+}
+[[nodiscard]] constexpr double slope_left_integral(double x) {
+  return x * x * (0.5 + x * x * (-1.5 + x * (1.6 - 0.5 * x)));
+}
+[[nodiscard]] constexpr double curvature_left_integral(double x) {
+  return x * x * x * (1.0 / 6.0 + x * (-0.375 + x * (0.3 - x / 12.0)));
+}
+
 /// The greatest |w'| = |v'|, at x = 1/2.
 inline constexpr double kStepSlopePeak = 15.0 / 8.0;
 /// The greatest |w''| = |v''|: 10 / √3.

@@ -138,4 +138,14 @@ template <class S>
   return sqrt(dot(v, v));
 }
 
+/// The same quantity when its clock tau passes at `pace` = d tau / dt, which changes by `rate`: x' = pace x_tau,
+/// x'' = pace² x_tautau + pace' x_tau.
+template <class Quantity>
+[[nodiscard]] inline Quantity paced(const Quantity& x, double pace, double rate) {
+  Quantity out = x;
+  out.first = pace * x.first;
+  out.second = pace * pace * x.second + rate * x.first;
+  return out;
+}
+
 }  // namespace gyre::mechanics

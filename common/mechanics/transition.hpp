@@ -1,10 +1,11 @@
 #pragma once
-// The one way to change anything in flight: mix the forces of plans, with weights that are smooth steps of time.
+// The one way to change plans in flight: mix their forces, with weights that are smooth steps of plan time. Starting,
+// slowing and stopping are no changes of plan: they are paces (protocol/pace.hpp).
 //
 // Intuition: if f_A and f_B both hold the load, so does (1 − w) f_A + w f_B for every w, because equilibrium is linear
-// in the forces. So engaging, releasing, retuning, freezing, and turning back half-way are the same motion between
-// different plans, and the load is held at every moment of each. What is not linear is the cable: the length law of
-// each plan is applied to the mixed direction, and the lengths are mixed.
+// in the forces. So a retune, and turning back half-way, are the same motion between different plans, and the load is
+// held at every moment of each. What is not linear is the cable: the length law of each plan is applied to the mixed
+// direction, and the lengths are mixed.
 //
 //   f = (1 − w) f_below + w f_plan      l = (1 − w) l_below(q) + w l_plan(q)      w = smooth_step(t − start, duration)
 //

@@ -10,11 +10,12 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "common/base/result.hpp"
 #include "common/mechanics/plan.hpp"
-#include "common/protocol/agent_loss.hpp"
+#include "common/protocol/silence.hpp"
 
 namespace gyre::mission {
 
@@ -48,8 +49,9 @@ struct Mission {
   mechanics::Plan plan;
   Winch winch;
   Simulation simulation;
+  std::set<CarrierId> holds;                    ///< whose vehicles brake without setpoints; the others go on
   std::optional<double> transition_duration_s;  ///< absent: the coordinator chooses
-  protocol::AgentLoss agent_loss = protocol::AgentLoss::kFreeze;
+  protocol::Silence silence;
   LoadTolerance load_tolerance;
 };
 

@@ -23,7 +23,6 @@ using mechanics::kMaxDenominator;
 using mechanics::kMaxNumerator;
 using mechanics::LengthLaw;
 using mechanics::Oscillation;
-using protocol::AgentLoss;
 
 // What is not absurd. Anything outside is a slip of the unit or of the exponent, not a flight.
 constexpr Span kMassKg{1e-6, 1e6, "kg"};
@@ -43,6 +42,9 @@ constexpr Span kDamping{0.0, 1e9, "N s/m"};
 constexpr Span kTimeConstantS{0.0, 1e3, "s"};
 constexpr Span kGustTimeS{1e-3, 1e4, "s"};
 constexpr Span kDurationS{0.1, 3600.0, "s"};
+constexpr Span kLeaseS{2.0, 600.0, "s"};
+static_assert(from_seconds(kLeaseS.min) == protocol::kShortestLease &&
+              from_seconds(kLeaseS.max) == protocol::kLongestLease);
 constexpr Span kCosine{0.0, 1.0, ""};
 constexpr Span kRotationDeg{0.0, 180.0, "deg"};
 
@@ -266,6 +268,14 @@ mechanics::Plan read_plan(const Located& root) {
   return plan;
 }
 
+std::set<CarrierId> read_holds(const pb::Mission& message) {
+  std::set<CarrierId> out;
+  for (const pb::Carrier& carrier : message.carrier()) {
+    if (carrier.vehicle().on_silence() == pb::Vehicle::HOLD) out.insert(carrier.id());
+  }
+  return out;
+}
+
 Simulation read_simulation(const Located& simulation) {
   Simulation out;
   out.carrier_time_constant_s = simulation.optional_number("carrier_time_constant_s", kTimeConstantS);
@@ -287,6 +297,23 @@ std::string read_name(const Located& root, const std::string& name) {
   return {};
 }
 
+protocol::Silence read_silence(const pb::Mission& message, const Located& root) {
+  protocol::Silence silence;
+  if (!message.has_silence()) return silence;
+  const Located place = root.child("silence");
+  switch (message.silence().policy_case()) {
+    case pb::Silence::kFlyOn:
+      silence.stop_after.reset();
+      break;
+    case pb::Silence::kStopAfterS:
+      silence.stop_after = from_seconds(place.number("stop_after_s", kLeaseS));
+      break;
+    case pb::Silence::POLICY_NOT_SET:
+      place.complain("says nothing; give stop_after_s: 5 or fly_on {}");
+  }
+  return silence;
+}
+
 /// Judges every field, so that all complaints come at once; the mission is worth nothing if there are any.
 Mission read_mission(const pb::Mission& message, const Located& root) {
   Mission mission;
@@ -296,9 +323,10 @@ Mission read_mission(const pb::Mission& message, const Located& root) {
   mission.winch.time_constant_s = winch.optional_number("time_constant_s", kTimeConstantS);
   mission.winch.rate_max_m_s = winch.optional_number("rate_max_m_s", kSpeed);
   mission.simulation = read_simulation(root.child("simulation"));
+  mission.holds = read_holds(message);
   if (mission.simulation.wind) mission.simulation.wind->seed = message.simulation().wind().seed();
   mission.transition_duration_s = root.child("transition").optional_number("duration_s", kDurationS);
-  mission.agent_loss = message.agent_loss() == pb::CONTINUE ? AgentLoss::kContinue : AgentLoss::kFreeze;
+  mission.silence = read_silence(message, root);
   const Located limits = root.child("limits");
   LoadTolerance& tolerance = mission.load_tolerance;
   tolerance.displacement_max_m = limits.number("load_displacement_max_m", kLengthM, tolerance.displacement_max_m);

@@ -108,14 +108,22 @@ std::string to_text(const Mission& mission) {
   out.mutable_cable()->set_stiffness_n_m(plan.cable.stiffness_n_m);
   out.mutable_cable()->set_damping_n_s_m(plan.cable.damping_n_s_m);
   out.mutable_cable()->set_compensate_stretch(plan.cable.compensate_stretch);
-  for (const mechanics::Carrier& carrier : plan.carriers) write(carrier, plan.cycle.rate_rad_s, out.add_carrier());
+  for (const mechanics::Carrier& carrier : plan.carriers) {
+    pb::Carrier* to = out.add_carrier();
+    write(carrier, plan.cycle.rate_rad_s, to);
+    if (mission.holds.count(carrier.id) != 0) to->mutable_vehicle()->set_on_silence(pb::Vehicle::HOLD);
+  }
   write(plan.cycle, out.mutable_cycle());
   write(plan.limits, mission.load_tolerance, out.mutable_limits());
   if (mission.winch.time_constant_s) out.mutable_winch()->set_time_constant_s(*mission.winch.time_constant_s);
   if (mission.winch.rate_max_m_s) out.mutable_winch()->set_rate_max_m_s(*mission.winch.rate_max_m_s);
   write(mission.simulation, out.mutable_simulation());
   if (mission.transition_duration_s) out.mutable_transition()->set_duration_s(*mission.transition_duration_s);
-  out.set_agent_loss(mission.agent_loss == protocol::AgentLoss::kContinue ? pb::CONTINUE : pb::FREEZE);
+  if (mission.silence.stop_after) {
+    out.mutable_silence()->set_stop_after_s(seconds(*mission.silence.stop_after));
+  } else {
+    out.mutable_silence()->mutable_fly_on();
+  }
 
   std::string text;
   google::protobuf::TextFormat::Printer printer;

@@ -37,6 +37,10 @@ std::string listed(const std::vector<std::string>& names) {
 std::string unknown_field(const std::string& parser_message, const std::string& type_name, const std::string& field) {
   const auto* type = schema::Mission::descriptor()->file()->pool()->FindMessageTypeByName(type_name);
   if (type == nullptr) return parser_message;
+  if (field == "agent_loss") {
+    return "agent_loss: is not read any more; write silence { stop_after_s: 5 } for FREEZE, silence { fly_on {} } for "
+           "CONTINUE";
+  }
   std::vector<std::string> names;
   for (int i = 0; i < type->field_count(); ++i) names.push_back(type->field(i)->name());
   std::stable_sort(names.begin(), names.end(), [&field](const std::string& a, const std::string& b) {
@@ -45,11 +49,10 @@ std::string unknown_field(const std::string& parser_message, const std::string& 
   return field + ": no such field; the fields here are " + listed(names);
 }
 
-std::string policies() {
+std::string ways_on_silence() {
   std::vector<std::string> names;
-  for (int i = 0; i < schema::AgentLoss_descriptor()->value_count(); ++i) {
-    names.push_back(schema::AgentLoss_descriptor()->value(i)->name());
-  }
+  const auto* ways = schema::Vehicle::OnSilence_descriptor();
+  for (int i = 0; i < ways->value_count(); ++i) names.push_back(ways->value(i)->name());
   return listed(names);
 }
 
@@ -59,10 +62,12 @@ std::string with_cure(const std::string& parser_message) {
   constexpr std::size_t kMaxMessageBytes = 400;  // std::regex recurses per character
   if (parser_message.size() > kMaxMessageBytes) return parser_message;
   static const std::regex kUnknownField(R"re(Message type "([\w.]+)" has no field named "(\w+)"\.)re");
-  static const std::regex kUnknownPolicy(R"re((Unknown enumeration value of .* for field "agent_loss")\.)re");
+  static const std::regex kUnknownWay(R"re(Unknown enumeration value of (.*) for field "on_silence"\.)re");
   std::smatch match;
   if (std::regex_match(parser_message, match, kUnknownField)) return unknown_field(parser_message, match[1], match[2]);
-  if (std::regex_match(parser_message, match, kUnknownPolicy)) return match.str(1) + "; give one of " + policies();
+  if (std::regex_match(parser_message, match, kUnknownWay)) {
+    return "on_silence: is " + match.str(1) + "; give one of " + ways_on_silence();
+  }
   if (parser_message == "Expected identifier, got: ") return "the file ends inside a block; close every { with a }";
   return parser_message;
 }

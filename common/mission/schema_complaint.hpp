@@ -5,8 +5,8 @@
 
 namespace gyre::mission {
 
-/// For an unknown field: the fields the message does have, the likeliest first; for an unknown policy: the known ones;
-/// for a block that is never closed: that. Other messages pass unchanged.
+/// For an unknown field: the fields the message does have, the likeliest first; for an unknown way on silence: the
+/// known ones; for a block that is never closed: that. Other messages pass unchanged.
 [[nodiscard]] std::string with_cure(const std::string& parser_message);
 
 }  // namespace gyre::mission

@@ -2,14 +2,27 @@
 
 namespace gyre::protocol {
 
-std::vector<mechanics::TimedLayer> layers(const Course& course, SwarmTime origin, const SliceLookup& lookup) {
-  const auto since = [origin](SwarmTime t) { return seconds(t - origin); };
+Pace Course::flown_pace(SwarmTime now) const {
+  const bool stops = lease && now > *lease && !pace.rests(*lease);
+  return stops ? pace.with_ramp(*lease, stopping, 0.0) : pace;
+}
+
+bool same_motion(const Course& a, const Course& b) {
+  return a.pace == b.pace && a.base == b.base && a.transitions == b.transitions;
+}
+
+bool operator==(const Course& a, const Course& b) {
+  return a.term == b.term && a.revision == b.revision && a.wish == b.wish && a.lease == b.lease &&
+         a.stopping == b.stopping && same_motion(a, b);
+}
+
+std::vector<mechanics::TimedLayer> layers(const Course& course, PlanTime origin, const SliceLookup& lookup) {
+  const auto since = [origin](PlanTime t) { return seconds(t - origin); };
   std::vector<mechanics::TimedLayer> out;
   const mechanics::CarrierSlice* base = lookup(course.base.number);
   if (base == nullptr) return {};
   out.push_back({base, since(course.base.epoch), 0.0, 0.0});
   for (const Transition& t : course.transitions) {
-    if (t.stage != Stage::kGo) continue;
     const mechanics::CarrierSlice* slice = lookup(t.to.number);
     if (slice == nullptr) return {};
     out.push_back({slice, since(t.to.epoch), since(t.start), seconds(t.duration)});
@@ -24,20 +37,16 @@ std::vector<PlanNumber> plans_of(const Course& course) {
 }
 
 bool settle(Course& course, SwarmTime now) {
+  const PlanTime plan_time = course.moment(now).at;
+  // What lies beyond the end of the lease is not flown yet: whoever extends it may still want it.
+  course.pace.settle(course.lease ? std::min(now, *course.lease) : now);
   for (std::size_t i = course.transitions.size(); i-- > 0;) {
     const Transition& t = course.transitions[i];
-    if (t.stage != Stage::kGo || now < t.end()) continue;
+    if (plan_time < t.end()) continue;
     course.base = t.to;
     course.transitions.erase(course.transitions.begin(),
                              course.transitions.begin() + static_cast<std::ptrdiff_t>(i) + 1);
     return true;
-  }
-  return false;
-}
-
-bool in_transition(const Course& course, SwarmTime now) {
-  for (const Transition& t : course.transitions) {
-    if (t.stage == Stage::kGo && now >= t.start && now < t.end()) return true;
   }
   return false;
 }

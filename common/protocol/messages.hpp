@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,9 @@ struct Beacon {
   std::uint64_t term = 0;
   std::uint64_t sequence = 0;
   SwarmTime swarm_time{};
-  Course course;
-  Duration skew_budget{};  ///< clock disagreement that the plan in force allows; 0: any
+  Course course;                   ///< what is flown
+  std::optional<Course> proposal;  ///< what would be flown next, if every agent confirms it
+  Duration skew_budget{};          ///< clock disagreement that the plans in force allow; 0: any
 };
 
 struct NumberedSlice {
@@ -36,15 +38,19 @@ struct NumberedSlice {
 struct PlanOffer {
   CarrierId carrier = 0;
   std::uint64_t term = 0;
+  std::uint64_t sequence = 0;  ///< within the term; what an older one said does not count any more
   std::vector<NumberedSlice> slices;
+  std::vector<NumberedSlice> neighbour;  ///< of the carrier after it, which this agent only keeps; at most kMaxPlans
 };
 
 /// Topic carrier_N/held, agent N to coordinator: the plans it holds, so that a restarted coordinator can learn them and
-/// give them back to a restarted agent. At most kMaxPlans.
+/// give them back to a restarted agent. At most kMaxPlans. It keeps those of a neighbour as well: one agent may die
+/// together with the coordinator, and nothing is forgotten.
 struct HeldPlans {
   CarrierId carrier = 0;
   std::uint64_t incarnation = 0;
   std::vector<NumberedSlice> slices;
+  std::vector<NumberedSlice> neighbour;  ///< as it was offered
 };
 
 /// Topics carrier_N/time_request and time_reply: the four timestamps of a two-way exchange.
@@ -75,8 +81,8 @@ struct DropCounts {
 
 enum class AgentState : std::uint8_t {
   kWaiting = 1,  ///< no swarm time or no plan yet: sends no setpoints
-  kReady = 2,    ///< follows a plan at rest, or could
-  kFlying = 3,   ///< follows a plan that moves
+  kReady = 2,    ///< follows a course that rests
+  kFlying = 3,   ///< follows one that moves
   kAlone = 4,    ///< flies on without the coordinator
 };
 
@@ -91,7 +97,7 @@ struct AgentStatus {
   Duration clock_uncertainty{};
   double clock_drift_ppm = 0.0;
   Course course;                     ///< what it follows
-  std::uint64_t confirmed = 0;       ///< id of the newest transition it has confirmed
+  std::uint64_t confirmed = 0;       ///< revision of the newest proposal of this term that it can fly; 0: none
   std::vector<PlanNumber> accepted;  ///< plans it holds and can fly
   PlanNumber refused;                ///< the newest plan it cannot fly, and why
   std::string refusal;               ///< at most kMaxTextBytes
@@ -139,13 +145,15 @@ struct LoadState {
   Eigen::Vector3d angular_velocity_b_rad_s = Eigen::Vector3d::Zero();
 };
 
-enum class CommandKind : std::uint8_t { kEngage = 1, kRelease = 2, kFreeze = 3, kRetune = 4 };
+enum class CommandKind : std::uint8_t { kEngage = 1, kRelease = 2, kFreeze = 3, kRetune = 4, kPace = 5 };
 
 /// Topics command and command_reply, ground to coordinator and back.
 struct Command {
   std::uint64_t id = 0;  ///< chosen by the sender, echoed in the reply
   CommandKind kind = CommandKind::kEngage;
-  std::string mission;  ///< retune: the text of a mission file; at most kMaxMissionBytes
+  double pace = 1.0;                ///< kPace: 0 .. 1
+  std::optional<double> phase_rad;  ///< kRelease: where to stop; absent: at the next moment
+  std::string mission;              ///< kRetune: the text of a mission file; at most kMaxMissionBytes
 };
 
 struct CommandReply {
@@ -159,9 +167,8 @@ struct CoordinatorStatus {
   std::uint64_t term = 0;
   SwarmTime swarm_time{};
   std::string mission;              ///< its name; at most kMaxTextBytes
-  PlanNumber rest;                  ///< the plan that the load rests by
-  PlanNumber motion;                ///< the plan of the mission in force
-  Duration skew_budget{};           ///< clock disagreement the plan in force allows; 0: any
+  PlanNumber plan;                  ///< the plan of the mission in force
+  Duration skew_budget{};           ///< clock disagreement the plans in force allow; 0: any
   Duration skew{};                  ///< the greatest disagreement the agents' uncertainties leave possible
   std::vector<CarrierId> carriers;  ///< of the mission; at most kMaxCarrierId
   std::vector<CarrierId> silent;    ///< at most kMaxCarrierId

@@ -11,6 +11,7 @@ namespace gyre::protocol {
 
 [[nodiscard]] bool sane(const Beacon& beacon);
 [[nodiscard]] bool sane(const PlanOffer& offer);
+[[nodiscard]] bool sane(const HeldPlans& held);
 [[nodiscard]] bool sane(const AgentStatus& status);
 [[nodiscard]] bool sane(const CarrierState& state);
 [[nodiscard]] bool sane(const LoadState& state);

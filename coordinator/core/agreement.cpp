@@ -7,11 +7,9 @@ namespace gyre::coordinator {
 void Agreement::schedule(SwarmTime now, std::size_t carriers) {
   rehearsal_.reset();
   // Every further attempt gets more time: the last one may have failed for want of it, on a busy machine.
-  const Duration rehearsal = intent_.rehearsed
-                                 ? options_.rehearsal_per_carrier * static_cast<Duration::rep>(carriers) * attempt_
-                                 : Duration::zero();
-  transition_.start = now + options_.lead + rehearsal;
-  transition_.to.epoch = transition_.start;
+  const Duration rehearsal =
+      rehearsed() ? options_.rehearsal_per_carrier * static_cast<Duration::rep>(carriers) * attempt_ : Duration::zero();
+  start_ = now + options_.lead + rehearsal;
 }
 
 Agreement::Step Agreement::give_up(std::string why) {
@@ -25,32 +23,29 @@ Agreement::Step Agreement::rehearsal_done(SwarmTime now) {
       return give_up("it would break a limit: " + rehearsal_->reasons().front().text);
     }
     ++attempt_;
-    transition_.duration *= 2;
+    duration_ *= 2;
     return Step::kAgain;
   }
   // The lead is for the agents to answer in; a rehearsal that used it up is done again, for a later start.
-  if (transition_.start - now < options_.lead / 2 + options_.go_margin) {
+  if (start_ - now < options_.lead / 2 + options_.go_margin) {
     if (attempt_ == options_.attempts) return give_up("rehearsing it takes too long on this machine");
     ++attempt_;
     return Step::kAgain;
   }
   proposed_ = true;
-  return Step::kPropose;
+  return Step::kWait;
 }
 
 Agreement::Step Agreement::step(SwarmTime now, const std::vector<CarrierId>& unconfirmed) {
   if (!proposed_) {
     if (!rehearsed()) {
       proposed_ = true;
-      return Step::kPropose;
+      return Step::kWait;
     }
     return rehearsal_->advance() ? rehearsal_done(now) : Step::kWait;
   }
-  if (unconfirmed.empty()) {
-    transition_.stage = protocol::Stage::kGo;
-    return Step::kGo;
-  }
-  if (transition_.start - now >= options_.go_margin) return Step::kWait;
+  if (unconfirmed.empty()) return Step::kGo;
+  if (start_ - now >= options_.go_margin) return Step::kWait;
   return give_up("not confirmed in time by " + listed("carrier", unconfirmed));
 }
 

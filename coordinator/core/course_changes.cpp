@@ -1,250 +1,232 @@
-// How the course changes: what the coordinator wants next, and each transition on its way to being flown.
+// How the course becomes what is wished: each change on its way to being flown.
 
 #include <algorithm>
+#include <cmath>
 
+#include "common/base/angle.hpp"
 #include "common/base/text.hpp"
-#include "common/mechanics/frozen_slice.hpp"
-#include "common/mechanics/skew.hpp"
-#include "common/protocol/course.hpp"
-#include "coordinator/core/coordinator.hpp"
+#include "coordinator/core/leading.hpp"
 
 namespace gyre::coordinator {
 
-using protocol::AgentLoss;
+using protocol::Course;
 using protocol::PlanNumber;
-using protocol::Stage;
 using protocol::Transition;
+using protocol::Wish;
+using protocol::Wisher;
 
-namespace {
-
-std::vector<CarrierId> without(std::vector<CarrierId> carriers, const std::vector<CarrierId>& these) {
-  const auto among = [&these](CarrierId c) { return std::find(these.begin(), these.end(), c) != these.end(); };
-  carriers.erase(std::remove_if(carriers.begin(), carriers.end(), among), carriers.end());
-  return carriers;
+/// The one place where the course changes without everybody's word.
+void Leading::change(Course course) {
+  course_ = std::move(course);
+  course_.term = term_;
+  course_.revision = ++last_revision_;
 }
 
-}  // namespace
-
-PlanNumber Coordinator::destination() const {
-  return course_.transitions.empty() ? course_.base.number : course_.transitions.back().to.number;
-}
-
-bool Coordinator::moves(const PlanNumber& plan) const {
-  const auto slices = plans_.slices(plan);
-  return std::any_of(slices.begin(), slices.end(), [](const auto& slice) { return mechanics::moves(slice); });
-}
-
-bool Coordinator::moving() const {
-  const auto numbers = protocol::plans_of(course_);
-  return std::any_of(numbers.begin(), numbers.end(), [this](const PlanNumber& plan) { return moves(plan); });
-}
-
-/// Room for one more and for turning it back.
-bool Coordinator::room_for_transition() const {
-  return course_.transitions.size() + 2 <= protocol::kMaxTransitions;
-}
-
-std::vector<mechanics::TimedLayer> Coordinator::layers(CarrierId carrier, const protocol::Course& course,
-                                                       SwarmTime origin) const {
-  return protocol::layers(course, origin, [&](const PlanNumber& number) { return plans_.slice(number, carrier); });
-}
-
-std::vector<PlanNumber> Coordinator::plans_in_use() const {
+std::vector<PlanNumber> Leading::plans_in_use() const {
   std::vector<PlanNumber> numbers = protocol::plans_of(course_);  // first: these must never be left out
-  if (agreement_) numbers.push_back(agreement_->intent().to);
-  numbers.push_back(motion_);
-  numbers.push_back(rest_);
+  numbers.push_back(plan_);
+  if (before_retune_) numbers.push_back(before_retune_->plan);
   return numbers;
 }
 
-void Coordinator::offer_plans(Outputs& out) const {
-  const auto numbers = plans_in_use();
-  for (const CarrierId id : carriers_) out.offers.push_back(plans_.offer(term_, id, numbers));
+std::vector<CarrierId> Leading::unconfirmed(LocalTime now) const {
+  const std::uint64_t revision = agreement_->proposal().revision;
+  const SwarmTime soon = swarm_time(now) + options_.agreement.lead;
+  const auto confirmed = [&](const protocol::AgentStatus& s) {
+    // What begins after the end of a lease would be stopped at once.
+    const bool leased = !course_.lease || (s.course.lease && *s.course.lease > soon);
+    return s.term == term_ && s.confirmed == revision && leased;
+  };
+  // Who does not know the plan in force follows when the transition away from it is complete.
+  return without(swarm_.fleet.missing(now, confirmed), without_plan(now));
 }
 
-std::vector<CarrierId> Coordinator::unconfirmed(LocalTime now) const {
-  const std::uint64_t id = agreement_->transition().id;
-  const auto confirmed = [&](const protocol::AgentStatus& s) { return s.term == term_ && s.confirmed >= id; };
-  // Who was lost before cannot be asked: whether to fly on without it was decided by the mission's policy, or by a
-  // person. Who is lost while this is agreed may be alive, and has not said whether it can fly it.
-  // Nor can one be that does not know the plan in force: it follows when the transition is complete.
-  const std::vector<CarrierId> back = without(not_asked_, lost(now));
-  return without(without(fleet_.missing(now, confirmed), without(not_asked_, back)), without_base(now));
-}
+// -------------------------------------------------------------------------------------------------------------- ramps
 
-/// Whom this coordinator hears of and cannot tell the plan in force.
-std::vector<CarrierId> Coordinator::without_base(LocalTime now) const {
-  std::vector<CarrierId> out;
-  for (const CarrierId id : carriers_) {
-    if (!fleet_.silent(now, id) && plans_.slice(course_.base.number, id) == nullptr) out.push_back(id);
+/// All that carriers may be doing while a ramp lasts: what is flown, what is about to be, and the mixture of them.
+RampLimits Leading::ramp_limits() const {
+  RampLimits out{job_.plan.limits, {}};
+  for (const mechanics::CarrierFigures& carrier : mixture_) out.include(carrier);
+  std::vector<PlanNumber> plans = protocol::plans_of(course_);
+  if (plan_ != plans.back()) plans.push_back(plan_);
+  for (const PlanNumber& plan : plans) {
+    for (const mechanics::CarrierFigures& carrier : plans_.figures(plan)) out.include(carrier);
   }
   return out;
 }
 
-std::optional<std::string> Coordinator::refusal_of(const PlanNumber& plan) const {
-  for (const CarrierId id : carriers_) {
-    const protocol::AgentStatus* status = fleet_.status(id);
-    if (status != nullptr && status->refused == plan) return status->refusal;
-  }
-  return std::nullopt;
-}
-
-Duration Coordinator::skew_budget(const PlanNumber& plan) const {
-  const double budget_s =
-      mechanics::skew_budget_s(plans_.slices(plan), job_.plan.load.mass_kg * job_.plan.gravity_m_s2);
-  constexpr double kForever_s = 1e6;
-  return budget_s < kForever_s ? from_seconds(budget_s) : Duration::zero();
-}
-
-std::optional<std::string> Coordinator::obstacle(LocalTime now, const PlanNumber& to) const {
-  if (const auto refusal = refusal_of(to)) return "refused: " + *refusal;
-  if (!room_for_transition()) return "too many transitions are under way; wait until they are complete";
-  const std::vector<CarrierId> gone = lost(now);
-  if (gone.size() == carriers_.size()) return "no agent is heard: check the network between them and here";
-  if (!gone.empty() && job_.on_agent_loss == AgentLoss::kFreeze && moves(to)) {
-    return listed("carrier", gone) + (gone.size() == 1 ? " is" : " are") +
-           " lost, and the mission flies with all or not at all";
-  }
-  // In motion it is too late to be choosy: whatever a person asks for then is better than what is.
-  if (const auto complaint = readiness_.complaint(now); complaint && moves(to) && !moving()) return complaint;
-  const Duration budget = skew_budget(to);
-  if (budget > Duration::zero() && skew(now) > budget) {
-    return text("the clocks may disagree by %.3g ms, the plan allows %.3g ms", 1e3 * seconds(skew(now)),
-                1e3 * seconds(budget));
-  }
-  return std::nullopt;
-}
-
-Intent Coordinator::intent_to(const PlanNumber& to, std::optional<std::uint64_t> command) const {
+Result<Intent> Leading::ramp_to(LocalTime now, const Wish& wish, bool at_once) const {
   Intent intent;
-  intent.to = to;
-  intent.duration = job_.transition.value_or(options_.shortest_transition);
-  intent.may_slow_down = !job_.transition;
-  intent.command = command;
+  intent.wish = wish;
+  const RampWish asked{swarm_time(now) + options_.agreement.lead, wish.pace,
+                       at_once ? options_.freezing : job_.transition.value_or(options_.shortest_transition),
+                       job_.transition && !at_once};
+  const Result<Duration> duration = ramp_duration(course_.pace, asked, ramp_limits(), options_.longest_ramp);
+  if (!duration) return duration.error();
+  intent.duration = duration.value();
   return intent;
 }
 
-// ---------------------------------------------------------------------------------------------------------- wanting
+Intent Leading::transition_to(const PlanNumber& plan, const Wish& wish) const {
+  Intent intent;
+  intent.wish = wish;
+  intent.plan = plan;
+  intent.duration = job_.transition.value_or(options_.shortest_transition);
+  intent.may_slow_down = !job_.transition;
+  return intent;
+}
 
-void Coordinator::drive(LocalTime now, Outputs& out) {
-  if (lost(now).empty()) frozen_for_loss_ = false;
-  if (agreement_) return pursue(now, out);
-  if (now < retry_at_ || !room_for_transition()) return;
+/// At the end of the lease the others have stopped as everybody had agreed: that is the course now, and it stays so
+/// until somebody wishes otherwise.
+void Leading::end_lease(SwarmTime now, Outputs& out) {
+  if (!course_.lease || now <= *course_.lease) return;
+  const protocol::Pace stopped = course_.flown_pace(now);
+  const bool moved = stopped.target() != course_.pace.target() || stopped.at(now).at != course_.pace.at(now).at;
+  // Also of a start that was turned back: whoever began it unheard has stopped, and must not begin again by itself.
+  if (!moved && course_.wish.pace == 0.0) return;
+  Course course = course_;
+  course.pace = stopped;
+  if (course.wish.pace != 0.0) course.wish = Wish{0.0, false, Wisher::kSilence};
+  change(std::move(course));
+  if (start_) before_retune_.reset();  // what went go is not turned back any more
+  start_.reset();
+  news_.tell(out, Notice::Level::kError, "the lease ended without a word of everybody: all stop together");
+  if (agreement_) give_up(LocalTime(now.time_since_epoch() - swarm_offset_), "the lease has ended", out);
+}
 
-  const std::vector<CarrierId> baseless = without_base(now);
-  if (!baseless.empty() && now - term_since_ > options_.listening && destination() != rest_) {
-    // What it knew of it died with a coordinator and an agent; all there is to offer is another plan.
-    tell(out, Notice::Level::kError,
-         "nobody knows the plan in force for " + listed("carrier", baseless) + ": going to rest");
-    Intent intent = intent_to(rest_, std::nullopt);
+/// The equilibrium that includes a stuck carrier is everybody's phase stopped where it got stuck (docs/design.md, fact
+/// 5). Nobody is asked: every tenth of a second costs.
+void Leading::stop_with(LocalTime now, const PathJudge::Stuck& stuck, Outputs& out) {
+  constexpr double kAlmostRest = 0.05;
+  constexpr Duration kHeardBy = std::chrono::milliseconds(20);
+  const SwarmTime time = swarm_time(now);
+  if (std::abs(course_.moment(time).pace) < kAlmostRest && course_.pace.target() == 0.0) return;
+  const PlanTime where = course_.moment(time - stuck.lag).at;
+  const SwarmTime start = time + kHeardBy;
+  // To stop is always found.
+  const Duration duration =
+      ramp_duration(course_.pace, {start, 0.0, options_.seizing, false}, ramp_limits(), options_.longest_ramp).value();
+  Course course = course_;
+  course.pace = stopped_at(where, course_.pace, start, duration);
+  course.wish = Wish{0.0, false, Wisher::kEvidence};
+  change(std::move(course));
+  if (start_) before_retune_.reset();
+  start_.reset();
+  if (agreement_) give_up(now, "a carrier got stuck", out);
+  news_.tell(out, Notice::Level::kError, text("carrier %u has left its path: all stop at its phase", stuck.carrier));
+}
+
+// --------------------------------------------------------------------------------------------------------------
+// driving
+
+void Leading::drive(LocalTime now, Outputs& out) {
+  const SwarmTime time = swarm_time(now);
+  if (shutting_down_) {
+    if (course_.rests(time)) {
+      out.finished = Outcome{true, "at rest; the flight has ended"};
+      return;
+    }
+    if (failures_ >= options_.release_attempts) {
+      out.finished = Outcome{false, "the swarm could not be stopped: " + news_.latest + "; it flies on"};
+      return;
+    }
+  }
+  if (now < retry_at_) return;
+  const std::vector<CarrierId> lost = without_plan(now);
+  const bool stays = protocol::plans_of(course_).back() == plan_ || course_.wish.pace == 0.0 ||
+                     course_.transitions.size() == protocol::kMaxTransitions;
+  if (!lost.empty() && now - since_ > options_.hopeless && !stays) {
+    // All there is to offer is another plan. At rest that waits for a person.
+    news_.tell(out, Notice::Level::kError,
+               "nobody knows the plan in force for " + listed("carrier", lost) + ": going over to the mission's");
+    Intent intent = transition_to(plan_, Wish{1.0, true, Wisher::kSilence});
     intent.rehearsed = false;
     return begin(now, intent);
   }
-  const std::vector<CarrierId> gone = lost(now);
-  const bool some_gone = !gone.empty() && !cut_off(now);
-  if (some_gone && !frozen_for_loss_ && moving() && job_.on_agent_loss == AgentLoss::kFreeze && !shutting_down_) {
-    tell(out, Notice::Level::kError, "lost " + listed("carrier", gone) + ": freezing where it stopped");
-    engage_ = false;
-    frozen_for_loss_ = true;
-    const auto last = fleet_.last_heard(gone.front());
-    return freeze(now, swarm_time(last.value_or(now)) + options_.coasting, false, std::nullopt, out);
+  const std::optional<Wish> wish = pending_wish(now);
+  if (!wish) return;
+  if (wish->pace == course_.pace.target()) {
+    if (*wish == course_.wish) return;
+    Course course = course_;
+    course.wish = *wish;
+    return change(std::move(course));
   }
-  if (shutting_down_) {
-    if (course_.transitions.empty() && !moving()) {
-      out.finished = Outcome{true, "the flight has ended at rest"};
-    } else if (release_failures_ >= options_.release_attempts) {
-      out.finished = Outcome{false, "the flight could not be brought to rest: agents do not answer"};
-    } else if (destination() != rest_ && moving()) {
-      Intent intent = intent_to(rest_, std::nullopt);
-      intent.may_slow_down = true;  // a flight must be able to end, however short its transitions were meant to be
-      begin(now, intent);
-    }
-    return;
-  }
-  if (!engage_ || destination() != rest_) return;
-  const auto ready = [this](const protocol::AgentStatus& s) {
-    return std::find(s.accepted.begin(), s.accepted.end(), motion_) != s.accepted.end() &&
-           s.state == protocol::AgentState::kReady;
-  };
-  if (!refusal_of(motion_) && !fleet_.missing(now, ready).empty()) return;
-  if (!readiness_.complaint(now)) {
-    not_ready_since_.reset();
-  } else if (!not_ready_since_) {
-    not_ready_since_ = now;
-  }
-  if (not_ready_since_ && now - *not_ready_since_ < options_.patience) return;
-  if (const auto why = obstacle(now, motion_)) {
-    const std::string told = "the motion does not begin: " + *why;
-    if (told != news_) tell(out, Notice::Level::kWarning, told);
+  const bool departs = course_.rests(time);
+  const auto refuse = [&](const std::string& why) {
+    news_.tell_once(out, Notice::Level::kWarning,
+                    (wish->pace == 0.0 ? "the swarm does not stop: "
+                     : departs         ? "the motion does not begin: "
+                                       : "the pace does not change: ") +
+                        why);
     retry_at_ = now + options_.agreement.lead;
-    return;
+    // With somebody silent, all stop at the end of the lease: that is waited for.
+    if (shutting_down_ && !(course_.lease && !swarm_.out_of_touch(now).empty())) ++failures_;
+  };
+  if (const auto why = obstacle(now, departs)) return refuse(*why);
+  const Result<Intent> intent = ramp_to(now, *wish, false);
+  if (!intent) return refuse(intent.error().text);
+  begin(now, intent.value());
+}
+
+// -------------------------------------------------------------------------------------------------------- agreements
+
+void Leading::begin(LocalTime now, const Intent& intent) {
+  agreement_.emplace(intent, options_.agreement);
+  schedule(now);
+}
+
+void Leading::schedule(LocalTime now) {
+  agreement_->schedule(swarm_time(now), swarm_.carriers.size());
+  const Intent& intent = agreement_->intent();
+  SwarmTime start = agreement_->start();
+  Course next = course_;
+  next.term = term_;
+  next.revision = ++last_revision_;
+  next.wish = intent.wish;
+  if (intent.plan) {
+    const PlanTime from = course_.moment(start).at;
+    next.transitions.push_back({{*intent.plan, from}, from, agreement_->duration()});
+    next.stopping = stopping_time();
+  } else {
+    if (const auto* slice = plans_.slice(course_.base.number, swarm_.carriers.front()); intent.phase_rad && slice) {
+      // Where it would stop if it began at `start`; and so much later as the phase asked for is ahead of that.
+      const protocol::Pace stopping = course_.pace.with_ramp(start, agreement_->duration(), intent.wish.pace);
+      const double stops_s = seconds(stopping.at(stopping.ramps.back().end()).at - course_.base.epoch);
+      const double ahead_rad = std::fmod(*intent.phase_rad - slice->rate_rad_s * stops_s, kTwoPi);
+      const double pace = course_.moment(start).pace;
+      if (pace > 0.0)
+        start += from_seconds((ahead_rad < 0.0 ? ahead_rad + kTwoPi : ahead_rad) / (slice->rate_rad_s * pace));
+    }
+    next.pace = course_.pace.with_ramp(start, agreement_->duration(), intent.wish.pace);
   }
-  begin(now, intent_to(motion_, std::nullopt));
+  agreement_->set_proposal(std::move(next), start);
 }
 
-void Coordinator::freeze(LocalTime now, SwarmTime moment, bool rehearsed, std::optional<std::uint64_t> command,
-                         Outputs& out) {
-  Slices still;
-  for (const CarrierId id : carriers_) {
-    const auto stack = layers(id, course_, moment);
-    if (!stack.empty()) still.emplace(id, mechanics::frozen_slice(stack, 0.0));
-  }
-  Intent intent;
-  intent.to = plans_.add(term_, std::move(still), "frozen");
-  intent.duration = options_.freezing;
-  intent.may_slow_down = true;
-  intent.rehearsed = rehearsed;
-  intent.command = command;
-  begin(now, intent);
-  offer_plans(out);
-}
-
-void Coordinator::begin(LocalTime now, Intent intent) {
-  not_asked_ = lost(now);
-  agreement_.emplace(++last_transition_, intent, options_.agreement);
-  agreement_->schedule(swarm_time(now), carriers_.size());
-}
-
-// ------------------------------------------------------------------------------------------------------- transitions
-
-void Coordinator::pursue(LocalTime now, Outputs& out) {
-  const auto rehearse = [this] {
-    const Transition& t = agreement_->transition();
-    protocol::Course rehearsed = course_;
-    rehearsed.transitions.push_back(t);
-    rehearsed.transitions.back().stage = Stage::kGo;
+void Leading::pursue(LocalTime now, Outputs& out) {
+  if (agreement_->needs_rehearsal()) {
+    const Course& proposal = agreement_->proposal();
     std::vector<std::vector<mechanics::TimedLayer>> stacks;
-    for (const CarrierId id : carriers_) {
-      auto stack = layers(id, rehearsed, t.start);
+    for (const CarrierId id : swarm_.carriers) {
+      const auto slice = [&](const PlanNumber& number) { return plans_.slice(number, id); };
+      auto stack = protocol::layers(proposal, proposal.transitions.back().start, slice);
       if (!stack.empty()) stacks.push_back(std::move(stack));
     }
+    if (stacks.empty()) return give_up(now, "no agent has told yet what it flies", out);
     agreement_->rehearse(Rehearsal(std::move(stacks), job_.plan.limits));
-  };
-  const std::vector<CarrierId> gone = lost(now);
-  if (!gone.empty() && job_.on_agent_loss == AgentLoss::kFreeze && moves(agreement_->intent().to)) {
-    return give_up(now, "lost " + listed("carrier", gone), out);
   }
-  if (agreement_->needs_rehearsal()) {
-    const auto knows_base = [this](CarrierId id) { return plans_.slice(course_.base.number, id) != nullptr; };
-    if (std::none_of(carriers_.begin(), carriers_.end(), knows_base)) {
-      return give_up(now, "no agent has told yet what it flies", out);
-    }
-    rehearse();
+  if (agreement_->proposal().pace.ramps.size() > protocol::kMaxRamps) {
+    return give_up(now, "too many changes of pace are under way; wait until they are complete", out);
   }
-  const bool was_proposed = agreement_->proposed();
-  switch (agreement_->step(swarm_time(now), was_proposed ? unconfirmed(now) : std::vector<CarrierId>{})) {
+  const bool proposed = agreement_->proposed();
+  switch (agreement_->step(swarm_time(now), proposed ? unconfirmed(now) : std::vector<CarrierId>{})) {
     case Agreement::Step::kWait:
+      if (!proposed && agreement_->proposed()) offer_plans(out);
       break;
     case Agreement::Step::kAgain:
-      agreement_->schedule(swarm_time(now), carriers_.size());
-      break;
-    case Agreement::Step::kPropose:
-      course_.transitions.push_back(agreement_->transition());
-      ++course_.revision;
-      offer_plans(out);
+      schedule(now);
       break;
     case Agreement::Step::kGo:
-      go(out);
+      go(now, out);
       break;
     case Agreement::Step::kGiveUp:
       give_up(now, agreement_->why(), out);
@@ -252,90 +234,94 @@ void Coordinator::pursue(LocalTime now, Outputs& out) {
   }
 }
 
-void Coordinator::go(Outputs& out) {
-  const Transition& t = agreement_->transition();
-  course_.transitions.back() = t;
-  ++course_.revision;
+void Leading::go(LocalTime now, Outputs& out) {
+  const Intent& intent = agreement_->intent();
+  start_ = Start{agreement_->start(), agreement_->proposal().revision, course_};
+  const std::optional<SwarmTime> lease = course_.lease;
+  course_ = agreement_->proposal();
+  course_.lease = lease;
+  (void)protocol::settle(course_, swarm_time(now));  // it was drawn up a moment ago
+  if (intent.plan) {
+    mixture_ = agreement_->figures();
+    course_.stopping = stopping_time();  // of whatever stops in the middle of it
+  }
+  const double length_s = seconds(agreement_->duration());
   const std::string told =
-      text("transition to the %s plan is go and takes %.3g s", plans_.name(t.to.number), seconds(t.duration));
-  tell(out, Notice::Level::kInfo, told);
-  if (agreement_->intent().command) answer(*agreement_->intent().command, true, told, out);
-  // A freeze is never turned back: holding still is where one would turn to.
-  if (agreement_->intent().rehearsed) starting_ = t.id;
-  if (t.to.number == motion_) engage_ = false;
-  release_failures_ = 0;
-  before_retune_.reset();
+      intent.plan ? text("transition to the %s plan is go and takes %.3g s", plans_.name(*intent.plan), length_s)
+      : intent.wish.pace == 0.0
+          ? text("the swarm comes to rest, within %.3g s", length_s)
+          : text("the swarm goes to %.0f %% of its pace, within %.3g s", 100.0 * intent.wish.pace, length_s);
+  news_.tell(out, Notice::Level::kInfo, told);
+  if (intent.command) desk_.answer(*intent.command, true, told, out.replies);
+  failures_ = 0;
   agreement_.reset();
   plans_.keep(plans_in_use());
 }
 
-void Coordinator::undo_retune() {
+void Leading::undo_retune() {
   if (!before_retune_) return;
   job_ = before_retune_->job;
-  rest_ = before_retune_->rest;
-  motion_ = before_retune_->motion;
+  plan_ = before_retune_->plan;
   before_retune_.reset();
 }
 
-void Coordinator::give_up(LocalTime now, const std::string& why, Outputs& out) {
-  const Agreement& agreement = *agreement_;
-  if (agreement.proposed()) {
-    course_.transitions.pop_back();
-    ++course_.revision;
-  }
-  const auto refusal = refusal_of(agreement.intent().to);
-  const std::string told = text("transition to the %s plan given up: %s", plans_.name(agreement.intent().to),
-                                refusal ? ("refused: " + *refusal).c_str() : why.c_str());
-  tell(out, Notice::Level::kWarning, told);
-  if (agreement.intent().command) answer(*agreement.intent().command, false, told, out);
-  if (shutting_down_) ++release_failures_;
-  if (!agreement.intent().rehearsed) frozen_for_loss_ = false;  // try again: the load is still not held
-  undo_retune();
+void Leading::give_up(LocalTime now, const std::string& why, Outputs& out) {
+  const Intent intent = agreement_->intent();
+  const auto refusal = intent.plan ? swarm_.refusal_of(*intent.plan) : std::nullopt;
+  const std::string what =
+      intent.plan ? text("transition to the %s plan", plans_.name(*intent.plan)) : std::string("change of pace");
+  const std::string told = what + " given up: " + refusal.value_or(why);
+  news_.tell(out, Notice::Level::kWarning, told);
+  if (intent.command) desk_.answer(*intent.command, false, told, out.replies);
+  if (shutting_down_) ++failures_;
+  if (intent.plan) undo_retune();
   retry_at_ = now + options_.agreement.lead;
   agreement_.reset();
   plans_.keep(plans_in_use());
   offer_plans(out);
 }
 
-void Coordinator::check_start(LocalTime now, Outputs& out) {
-  if (!starting_) return;
-  const auto is_starting = [id = *starting_](const Transition& t) { return t.id == id; };
-  auto found = std::find_if(course_.transitions.begin(), course_.transitions.end(), is_starting);
-  if (found == course_.transitions.end()) {
-    starting_.reset();
+void Leading::check_start(LocalTime now, Outputs& out) {
+  if (!start_) return;
+  const SwarmTime time = swarm_time(now);
+  const bool overtaken = course_.revision != start_->revision;
+  if (!overtaken && time < start_->at + options_.start_check) return;
+  // Who hears nobody does not know who follows, and would not be heard.
+  if (!overtaken && swarm_.silent(now).size() == swarm_.carriers.size()) return;
+  const Start start = *start_;
+  start_.reset();
+  if (overtaken) return before_retune_.reset();
+  // Who said that it follows does so, silent or not, and its vehicle does when it dies.
+  std::vector<CarrierId> missing;
+  for (const CarrierId id : swarm_.carriers) {
+    const protocol::AgentStatus* s = swarm_.fleet.status(id);
+    const bool follows = s != nullptr && s->course.term == term_ && s->course.revision >= start.revision;
+    if (!follows) missing.push_back(id);
+  }
+  missing = without(missing, without_plan(now));
+  if (missing.empty() || shutting_down_) {
+    before_retune_.reset();
     return;
   }
-  if (swarm_time(now) < found->start + options_.start_check || cut_off(now)) return;
-  const auto follows = [&](const protocol::AgentStatus& s) {
-    const auto& theirs = s.course.transitions;
-    if (s.term != term_) return false;
-    return s.course.base.number == found->to.number ||
-           std::any_of(theirs.begin(), theirs.end(),
-                       [&](const Transition& t) { return t.id == found->id && t.stage == Stage::kGo; });
-  };
-  const std::vector<CarrierId> missing = without(fleet_.missing(now, follows), lost(now));
-  starting_.reset();
-  if (missing.empty() || shutting_down_) return;
-  tell(out, Notice::Level::kWarning,
-       listed("carrier", missing) + (missing.size() == 1 ? " does" : " do") +
-           " not follow the transition that began: turning back");
-  // It was wanted, and still is: nobody has to ask for it again.
-  engage_ = engage_ || found->to.number == motion_;
-  retry_at_ = now + options_.turning_back;
-  if (agreement_) {  // it was to lie on what is turned back now
-    give_up(now, "the transition before it is turned back", out);
-    found = std::find_if(course_.transitions.begin(), course_.transitions.end(), is_starting);
+  news_.tell(out, Notice::Level::kWarning,
+             listed("carrier", missing) + (missing.size() == 1 ? " does" : " do") +
+                 " not follow the change that began: turning back");
+  if (agreement_) give_up(now, "the change before it is turned back", out);
+  retry_at_ = now + options_.stopping;
+  const SwarmTime back_at = time + options_.agreement.go_margin;
+  Course course = course_;
+  if (course.transitions.size() > start.before.transitions.size()) {
+    const PlanNumber abandoned = course.transitions.back().to.number;
+    const PlanTime from = course.moment(back_at).at;
+    const protocol::TimedPlan below =
+        start.before.transitions.empty() ? start.before.base : start.before.transitions.back().to;
+    course.transitions.push_back({below, from, options_.stopping});
+    if (abandoned == plan_) undo_retune();
+  } else {
+    course.pace = course.pace.with_ramp(back_at, options_.stopping, start.before.pace.target());
   }
-  // The plan below is known to everybody: no need to ask. Who never began stays where the turn leads.
-  const auto index = static_cast<std::size_t>(found - course_.transitions.begin());
-  Transition back;
-  back.id = ++last_transition_;
-  back.to = index == 0 ? course_.base : course_.transitions[index - 1].to;
-  back.start = swarm_time(now) + options_.agreement.go_margin;
-  back.duration = options_.turning_back;
-  back.stage = Stage::kGo;
-  course_.transitions.push_back(back);
-  ++course_.revision;
+  change(std::move(course));
+  plans_.keep(plans_in_use());
 }
 
 }  // namespace gyre::coordinator

@@ -1,10 +1,15 @@
 #pragma once
-// Who is there: what every agent said last, and who has fallen silent.
+// Who is there: what every agent said last, who has fallen silent, and who is there twice.
+//
+// An agent that starts again is another life of the same carrier, told by its incarnation. The life that was heard
+// first is believed until it falls silent: then the other one is, and what the dead still had under way is passed over.
+// While both speak, two agents claim one carrier, and the newcomer is not believed.
 
 #include <map>
 #include <optional>
 #include <vector>
 
+#include "common/protocol/counting.hpp"
 #include "common/protocol/liveness.hpp"
 #include "common/protocol/messages.hpp"
 
@@ -14,10 +19,13 @@ class Fleet {
  public:
   Fleet(const std::vector<CarrierId>& carriers, Duration timeout);
 
-  enum class Verdict { kTaken, kStranger, kDuplicate, kLate };
+  enum class Verdict { kTaken, kStranger, kDuplicate, kLate, kLeap, kRival };
   Verdict take(LocalTime now, const protocol::AgentStatus& status);
-  /// Any other sign of life.
-  void heard(LocalTime now, CarrierId carrier);
+  /// Any other sign of this life.
+  void heard(LocalTime now, CarrierId carrier, std::uint64_t incarnation);
+
+  /// Carriers that two agents claim.
+  [[nodiscard]] std::vector<CarrierId> claimed_twice(LocalTime now) const;
 
   struct Change {
     CarrierId carrier;
@@ -30,7 +38,8 @@ class Fleet {
   /// nullptr until it was heard.
   [[nodiscard]] const protocol::AgentStatus* status(CarrierId carrier) const;
   [[nodiscard]] bool silent(LocalTime now, CarrierId carrier) const;
-  [[nodiscard]] std::optional<LocalTime> last_heard(CarrierId carrier) const;
+  /// Whether it is heard, and hears: the beacons it says to have received grow.
+  [[nodiscard]] bool in_touch(LocalTime now, CarrierId carrier) const;
 
   /// Carriers for which `holds` is false, silent ones included.
   template <class Predicate>
@@ -44,10 +53,15 @@ class Fleet {
 
  private:
   struct Member {
-    explicit Member(Duration timeout) : liveness(timeout) {}
+    explicit Member(Duration timeout) : liveness(timeout), hearing(timeout) {}
     protocol::Liveness liveness;
+    protocol::Liveness hearing;
+    protocol::SequenceJudge sequences;  ///< of the life that is believed
     std::optional<protocol::AgentStatus> status;
-    std::optional<std::uint64_t> former;  ///< incarnation before this one
+    struct Rival {
+      LocalTime since{}, last{};
+    };
+    std::optional<Rival> rival;  ///< any lives that are heard beside the one that is believed
     bool known_present = false;
     bool restarted = false;
   };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/mechanics/orbit_figures.hpp"
+
 namespace gyre::coordinator {
 
 using protocol::PlanNumber;
@@ -14,27 +16,28 @@ Slices by_carrier(const std::vector<mechanics::CarrierSlice>& slices) {
 
 PlanNumber PlanBook::add(std::uint64_t term, Slices slices, const std::string& name) {
   const PlanNumber number{term, ++last_revision_};
-  plans_[number] = {std::move(slices), name};
+  plans_[number] = {std::move(slices), name, {}};
   return number;
 }
 
 void PlanBook::learn(const PlanNumber& number, Slices slices) {
-  plans_[number] = {std::move(slices), "former"};
+  plans_[number] = {std::move(slices), "former", {}};
 }
 
-bool PlanBook::complete(CarrierId carrier, const protocol::NumberedSlice& numbered) {
+bool PlanBook::complete(const protocol::NumberedSlice& numbered, bool wanted) {
+  if (wanted && plans_.count(numbered.number) == 0) learn(numbered.number, {});
   const auto plan = plans_.find(numbered.number);
-  return plan != plans_.end() && plan->second.slices.emplace(carrier, numbered.slice).second;
+  return plan != plans_.end() && plan->second.slices.emplace(numbered.slice.id, numbered.slice).second;
 }
 
 std::optional<PlanNumber> PlanBook::recognise(const Slices& slices, const std::string& name) {
   for (auto& [number, entry] : plans_) {
     const auto same = [&slices](const auto& known) {
       const auto found = slices.find(known.first);
-      return found != slices.end() && found->second == known.second;
+      return found != slices.end() && mechanics::alike(found->second, known.second);
     };
     if (entry.slices.empty() || !std::all_of(entry.slices.begin(), entry.slices.end(), same)) continue;
-    entry = {slices, name};
+    entry = {slices, name, {}};
     return number;
   }
   return std::nullopt;
@@ -60,22 +63,33 @@ const char* PlanBook::name(const PlanNumber& number) const {
   return plan == plans_.end() ? "unknown" : plan->second.name.c_str();
 }
 
+const std::vector<mechanics::CarrierFigures>& PlanBook::figures(const PlanNumber& number) const {
+  static const std::vector<mechanics::CarrierFigures> kNone;
+  const auto plan = plans_.find(number);
+  if (plan == plans_.end()) return kNone;
+  const Entry& entry = plan->second;
+  if (entry.figures.size() != entry.slices.size()) {
+    entry.figures.clear();
+    for (const auto& [carrier, slice] : entry.slices) entry.figures.push_back(mechanics::orbit_figures(slice));
+  }
+  return entry.figures;
+}
+
 void PlanBook::keep(const std::vector<PlanNumber>& numbers) {
   for (auto it = plans_.begin(); it != plans_.end();) {
     it = std::find(numbers.begin(), numbers.end(), it->first) == numbers.end() ? plans_.erase(it) : std::next(it);
   }
 }
 
-protocol::PlanOffer PlanBook::offer(std::uint64_t term, CarrierId carrier,
-                                    const std::vector<PlanNumber>& numbers) const {
-  protocol::PlanOffer offer{carrier, term, {}};
+std::vector<protocol::NumberedSlice> PlanBook::told(CarrierId carrier, const std::vector<PlanNumber>& numbers) const {
+  std::vector<protocol::NumberedSlice> out;
   for (const PlanNumber& number : numbers) {
     const mechanics::CarrierSlice* known = slice(number, carrier);
     const auto same = [&number](const protocol::NumberedSlice& s) { return s.number == number; };
-    if (known == nullptr || std::any_of(offer.slices.begin(), offer.slices.end(), same)) continue;
-    if (offer.slices.size() < protocol::kMaxPlans) offer.slices.push_back({number, *known});
+    if (known == nullptr || std::any_of(out.begin(), out.end(), same)) continue;
+    if (out.size() < protocol::kMaxPlans) out.push_back({number, *known});
   }
-  return offer;
+  return out;
 }
 
 }  // namespace gyre::coordinator

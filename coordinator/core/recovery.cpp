@@ -3,17 +3,13 @@
 #include <algorithm>
 
 #include "common/protocol/course.hpp"
+#include "coordinator/core/load_obstacle.hpp"
 
 namespace gyre::coordinator {
 
-using protocol::Stage;
-using protocol::Transition;
-
 void Recovery::take(LocalTime arrived, const protocol::AgentStatus& status) {
   highest_term_ = std::max(highest_term_, status.term);
-  last_transition_ = std::max(last_transition_, status.confirmed);
-  if (status.term == 0 || status.course.base.number.none()) return;
-  for (const Transition& t : status.course.transitions) last_transition_ = std::max(last_transition_, t.id);
+  if (status.term == 0 || status.course.none()) return;
 
   const Duration offset = status.swarm_time.time_since_epoch() - arrived.time_since_epoch();
   const Duration proven = offset - std::min(status.clock_uncertainty, kLongest);
@@ -22,27 +18,24 @@ void Recovery::take(LocalTime arrived, const protocol::AgentStatus& status) {
     swarm_offset_ = offset;
   }
 
-  const bool newer = !course_ || status.term > course_term_ ||
-                     (status.term == course_term_ && status.course.revision > course_->revision);
-  if (!newer) return;
-  course_term_ = status.term;
-  course_ = status.course;
-  auto& transitions = course_->transitions;
-  transitions.erase(
-      std::remove_if(transitions.begin(), transitions.end(), [](const Transition& t) { return t.stage != Stage::kGo; }),
-      transitions.end());
+  if (!course_ || status.course.newer_than(*course_)) {
+    course_ = status.course;
+  } else if (!course_->newer_than(status.course) && course_->lease && status.course.lease) {
+    course_->lease = std::max(*course_->lease, *status.course.lease);  // whoever has heard most of it
+  }
 }
 
 void Recovery::take(const protocol::HeldPlans& held) {
   for (const protocol::NumberedSlice& numbered : held.slices) plans_[numbered.number][held.carrier] = numbered.slice;
+  // Whoever flies it knows better.
+  for (const protocol::NumberedSlice& numbered : held.neighbour) {
+    plans_[numbered.number].emplace(numbered.slice.id, numbered.slice);
+  }
 }
 
-std::optional<CarrierId> Recovery::stranger_to(const Slices& ours) const {
+std::optional<std::string> Recovery::obstacle_to(const Slices& ours) const {
   for (const auto& [number, slices] : plans_) {
-    for (const auto& [carrier, slice] : slices) {
-      const auto own = ours.find(carrier);
-      if (own != ours.end() && own->second.attachment_w_m != slice.attachment_w_m) return carrier;
-    }
+    if (const auto why = load_obstacle(slices, ours)) return why;
   }
   return std::nullopt;
 }

@@ -26,20 +26,17 @@ class Recovery {
   /// Whether a swarm flies, and its course.
   [[nodiscard]] const std::optional<protocol::Course>& course() const { return course_; }
   [[nodiscard]] Duration swarm_offset() const { return *swarm_offset_; }  ///< there is one where there is a course
-  [[nodiscard]] std::uint64_t last_transition() const { return last_transition_; }
   [[nodiscard]] const std::map<protocol::PlanNumber, Slices>& plans() const { return plans_; }
-  /// A carrier whose attachment is elsewhere in what flies than in `ours`: another mission's swarm.
-  [[nodiscard]] std::optional<CarrierId> stranger_to(const Slices& ours) const;
+  /// Why what flies cannot be led with a mission of these slices: another mission's swarm. Absent: it can.
+  [[nodiscard]] std::optional<std::string> obstacle_to(const Slices& ours) const;
   /// Every plan of the course is known for this carrier.
   [[nodiscard]] bool complete_for(CarrierId carrier) const;
 
  private:
   std::uint64_t highest_term_ = 0;
-  std::uint64_t course_term_ = 0;
   std::optional<protocol::Course> course_;
   std::optional<Duration> swarm_offset_;
   std::optional<Duration> proven_offset_;  ///< that offset less its uncertainty
-  std::uint64_t last_transition_ = 0;
   std::map<protocol::PlanNumber, Slices> plans_;
 };
 

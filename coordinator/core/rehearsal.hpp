@@ -21,6 +21,7 @@ class Rehearsal {
   bool advance();
 
   [[nodiscard]] const std::vector<mechanics::Reason>& reasons() const { return reasons_; }
+  [[nodiscard]] const std::vector<mechanics::CarrierFigures>& figures() const { return figures_; }
 
  private:
   std::vector<std::vector<mechanics::TimedLayer>> stacks_;

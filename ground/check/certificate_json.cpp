@@ -52,7 +52,8 @@ Json carrier_json(const mechanics::CarrierFigures& carrier) {
 
 }  // namespace
 
-Json certificate_json(const std::string& mission_name, const mechanics::Certificate& certificate) {
+Json certificate_json(const std::string& mission_name, const mechanics::Certificate& certificate,
+                      const protocol::Silence& silence) {
   Json carriers = Json::array();
   for (const mechanics::CarrierFigures& carrier : certificate.carriers) carriers.push_back(carrier_json(carrier));
 
@@ -68,6 +69,7 @@ Json certificate_json(const std::string& mission_name, const mechanics::Certific
           {"skew_residual_n_per_s", figure(skew, &mechanics::SkewBudget::residual_n_per_s)},
           {"skew_displacement_m_per_s", figure(skew, &mechanics::SkewBudget::displacement_m_per_s)},
           {"holdover_s", figure(skew, &mechanics::SkewBudget::holdover_s)},
+          {"silence_stop_after_s", silence.stop_after ? Json(seconds(*silence.stop_after)) : Json(nullptr)},
           {"carrier_separation_min_m", figure(separation, &mechanics::Separation::min_m)},
           {"carrier_separation_pair", separation ? Json{separation->first, separation->second} : Json(nullptr)},
           {"stiffness_min_1_s2", figure(certificate.stiffness_min_1_s2)},

@@ -5,11 +5,14 @@
 #include <string>
 
 #include "common/mechanics/certificate.hpp"
+#include "common/protocol/silence.hpp"
 
 namespace gyre::ground {
 
-/// A figure that does not exist, was not computed, or is infinite, is null.
+/// A figure that does not exist, was not computed, or is infinite, is null; so is silence_stop_after_s where
+/// the swarm flies on.
 [[nodiscard]] nlohmann::ordered_json certificate_json(const std::string& mission_name,
-                                                      const mechanics::Certificate& certificate);
+                                                      const mechanics::Certificate& certificate,
+                                                      const protocol::Silence& silence);
 
 }  // namespace gyre::ground

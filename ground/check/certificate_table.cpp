@@ -114,14 +114,21 @@ std::string skew_line(const std::optional<mechanics::SkewBudget>& budget) {
   if (!std::isfinite(skew.budget_s)) return "of any size";
   return "up to " + number_text(1e3 * skew.budget_s) + " ms keep the residual under " +
          text("%.0f %%", 100.0 * mechanics::kSkewShare) + " of the weight; " + number_text(skew.residual_n_per_s) +
-         " N and " + number_text(1e3 * skew.displacement_m_per_s) + " mm per second of it\n" + "  holdover           " +
-         number_text(skew.holdover_s) + " s with clocks " + text("%.0f", 1e6 * mechanics::kHoldoverDrift) +
-         " ppm apart";
+         " N and " + number_text(1e3 * skew.displacement_m_per_s) + " mm per second of it";
+}
+
+/// What the swarm does without a word, and how long that is good for where it flies on.
+std::string silence_line(const protocol::Silence& silence, const std::optional<mechanics::SkewBudget>& budget) {
+  if (silence.stop_after) return "all stop together after " + number_text(seconds(*silence.stop_after)) + " s";
+  if (!budget || !std::isfinite(budget->holdover_s)) return "all fly on";
+  return "all fly on, and the clock skew stays within its bound for " + number_text(budget->holdover_s) +
+         " s with clocks " + text("%.0f", 1e6 * mechanics::kHoldoverDrift) + " ppm apart";
 }
 
 }  // namespace
 
-std::string certificate_table(const std::string& mission_name, const Limits& limits, const Certificate& certificate) {
+std::string certificate_table(const std::string& mission_name, const Limits& limits, const Certificate& certificate,
+                              const protocol::Silence& silence) {
   const std::size_t broken = certificate.reasons.size();
   std::string out = mission_name + ": ";
   out += certificate.admissible()
@@ -135,6 +142,7 @@ std::string certificate_table(const std::string& mission_name, const Limits& lim
   out += "  wrench error       " + text("%.2g", certificate.wrench_error_max_n) + " N at most\n";
   out += "  load stiffness     " + stiffness_line(certificate.stiffness_min_1_s2) + "\n";
   out += "  clock skew         " + skew_line(certificate.skew) + "\n";
+  out += "  silence            " + silence_line(silence, certificate.skew) + "\n";
   if (!certificate.admissible()) out += "\nWhy, and what would cure it:\n" + listed(certificate.reasons);
   if (!certificate.cautions.empty()) out += "\nNot forbidden, but look at it:\n" + listed(certificate.cautions);
   return out;

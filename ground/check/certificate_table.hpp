@@ -6,10 +6,12 @@
 
 #include "common/mechanics/certificate.hpp"
 #include "common/mechanics/plan.hpp"
+#include "common/protocol/silence.hpp"
 
 namespace gyre::ground {
 
 [[nodiscard]] std::string certificate_table(const std::string& mission_name, const mechanics::Limits& limits,
-                                            const mechanics::Certificate& certificate);
+                                            const mechanics::Certificate& certificate,
+                                            const protocol::Silence& silence);
 
 }  // namespace gyre::ground

@@ -22,8 +22,9 @@ int check(const CheckOptions& options) {
   if (!mission) return mission.error();
   const mechanics::Plan& plan = mission.value().plan;
   const mechanics::Certificate certificate = mechanics::certify(plan);
-  const std::string report = options.json ? certificate_json(mission.value().name, certificate).dump(2) + "\n"
-                                          : certificate_table(mission.value().name, plan.limits, certificate);
+  const protocol::Silence& silence = mission.value().silence;
+  const std::string report = options.json ? certificate_json(mission.value().name, certificate, silence).dump(2) + "\n"
+                                          : certificate_table(mission.value().name, plan.limits, certificate, silence);
   const bool written = std::fputs(report.c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
   return written && certificate.admissible() ? program::kGood : program::kFailed;
 }

@@ -107,7 +107,9 @@ int fly(const FlyOptions& options) {
   if (!mission) return mission.error();
   const mechanics::Certificate certificate = mechanics::certify(mission.value().plan);
   if (!certificate.admissible()) {
-    std::printf("%s", certificate_table(mission.value().name, mission.value().plan.limits, certificate).c_str());
+    std::printf(
+        "%s", certificate_table(mission.value().name, mission.value().plan.limits, certificate, mission.value().silence)
+                  .c_str());
     return program::kFailed;
   }
   return fly_certified(options, mission.value());

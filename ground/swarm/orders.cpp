@@ -6,6 +6,7 @@
 #include <random>
 #include <string>
 
+#include "common/base/angle.hpp"
 #include "common/dds/inbox.hpp"
 #include "common/dds/node.hpp"
 #include "common/program/mission_argument.hpp"
@@ -58,10 +59,11 @@ std::optional<protocol::CommandReply> ask(dds::Node& node, const protocol::Comma
   return std::nullopt;
 }
 
-int send(CommandKind kind, const std::string& mission, const program::NetworkOptions& options) {
+int send(protocol::Command command, const program::NetworkOptions& options) {
   const auto node = program::open_node(options, {});
   if (!node) return node.error();
-  const auto reply = ask(*node.value(), {fresh_id(), kind, mission});
+  command.id = fresh_id();
+  const auto reply = ask(*node.value(), command);
   if (!reply) {
     std::fprintf(stderr, "No coordinator answered on domain %d within %.0f s.\n%s\n", node.value()->domain(),
                  seconds(kPatience), coordinators_elsewhere().c_str());
@@ -81,26 +83,68 @@ int retune(const std::string& path, const program::NetworkOptions& options) {
                  path.c_str(), text.size(), protocol::kMaxMissionBytes);
     return program::kBadUsage;
   }
-  return send(CommandKind::kRetune, text, options);
+  protocol::Command command;
+  command.kind = CommandKind::kRetune;
+  command.mission = text;
+  return send(command, options);
 }
 
 program::Command order(const char* name, const char* purpose, CommandKind kind) {
   const auto options = std::make_shared<program::NetworkOptions>();
-  return {name, purpose, {program::network_options(*options)}, [options, kind] { return send(kind, "", *options); }};
+  return {name, purpose, {program::network_options(*options)}, [options, kind] {
+            protocol::Command command;
+            command.kind = kind;
+            return send(command, *options);
+          }};
 }
 
 }  // namespace
 
 program::Command engage_command() {
-  return order("engage", "Tell the coordinator to go from rest to the mission's motion.", CommandKind::kEngage);
+  return order("engage", "Tell the coordinator to bring the motion to its full pace.", CommandKind::kEngage);
 }
 
 program::Command release_command() {
-  return order("release", "Tell the coordinator to bring every carrier back to rest.", CommandKind::kRelease);
+  struct Options {
+    std::optional<double> phase_deg;
+    program::NetworkOptions network;
+  };
+  const auto options = std::make_shared<Options>();
+  return {
+      "release",
+      "Tell the coordinator to bring every carrier to rest, gently, and to keep it so.",
+      {program::own({{"--phase", &options->phase_deg, "degrees of the cycle at which to stop (else the next moment)",
+                      program::Bounds{-360.0, 360.0}}}),
+       program::network_options(options->network)},
+      [options] {
+        protocol::Command command;
+        command.kind = CommandKind::kRelease;
+        if (options->phase_deg) command.phase_rad = *options->phase_deg * kPi / 180.0;
+        return send(command, options->network);
+      }};
 }
 
 program::Command freeze_command() {
-  return order("freeze", "Tell the coordinator to hold the load as it is held now.", CommandKind::kFreeze);
+  return order("freeze", "Tell the coordinator to stop every carrier where it is, as fast as its limits allow.",
+               CommandKind::kFreeze);
+}
+
+program::Command pace_command() {
+  struct Options {
+    double pace = 1.0;
+    program::NetworkOptions network;
+  };
+  const auto options = std::make_shared<Options>();
+  return {"pace",
+          "Tell the coordinator how fast the motion is to run: 1 is full, 0.5 half, 0 rest.",
+          {program::own({{"PACE", &options->pace, "0 .. 1", program::Bounds{0.0, 1.0}, program::Take::kByHand}}),
+           program::network_options(options->network)},
+          [options] {
+            protocol::Command command;
+            command.kind = CommandKind::kPace;
+            command.pace = options->pace;
+            return send(command, options->network);
+          }};
 }
 
 program::Command retune_command() {

@@ -7,21 +7,23 @@
 
 namespace gyre::simulator {
 
-CarrierFollower::CarrierFollower(const Eigen::Vector3d& rest_position_w_m, std::optional<double> lag_s)
-    : lag_s_(lag_s) {
+CarrierFollower::CarrierFollower(const Eigen::Vector3d& rest_position_w_m, std::optional<double> lag_s,
+                                 OnSilence on_silence)
+    : lag_s_(lag_s), on_silence_(on_silence) {
   GYRE_ENSURE(!lag_s || *lag_s > 0.0, "a lag is positive; no lag is absent");
   target_.position_w_m = rest_position_w_m;
 }
 
-void CarrierFollower::command(const CarrierTarget& target, double held_s, double now_s) {
+void CarrierFollower::command(const CarrierTarget& target, double held_s, double now_s, Hand hand) {
   const Eigen::Vector3d place = at(now_s).position_w_m;
   const CarrierMotion before = asked(now_s);
-  const bool slowed_down = led_ && now_s - target_since_s_ > kExtrapolationHorizon_s;
+  const bool slowed_down = led_ && (now_s - target_since_s_ > kExtrapolationHorizon_s || now_s > brakes_at_s_);
   led_ = true;
   target_ = target;
   target_since_s_ = held_s;
-  const bool called_elsewhere =
-      catch_up_.under_way(now_s) && (asked(now_s).position_w_m - before.position_w_m).norm() > kCalledElsewhere_m;
+  brakes_at_s_ = brakes_at_s(on_silence_, now_s);
+  const bool called_elsewhere = (hand == Hand::kAnother || catch_up_.under_way(now_s)) &&
+                                (asked(now_s).position_w_m - before.position_w_m).norm() > kCalledElsewhere_m;
   if (slowed_down || called_elsewhere) {
     catch_up_ = CatchUp<Eigen::Vector3d>(Eigen::Vector3d::Zero());
     const CarrierMotion wanted = asked(now_s);
@@ -31,13 +33,20 @@ void CarrierFollower::command(const CarrierTarget& target, double held_s, double
   error_since_s_ = now_s;
 }
 
-CarrierMotion CarrierFollower::asked(double t_s) const {
+CarrierMotion CarrierFollower::led(double t_s) const {
   const ExtrapolationWeights w = extrapolate(t_s - target_since_s_);
   const auto left = catch_up_.at(t_s);
   return {
       left.value + target_.position_w_m + w.by_velocity * target_.velocity_w_m_s +
           w.by_acceleration * target_.acceleration_w_m_s2,
       left.rate + w.rate_by_velocity * target_.velocity_w_m_s + w.rate_by_acceleration * target_.acceleration_w_m_s2};
+}
+
+CarrierMotion CarrierFollower::asked(double t_s) const {
+  if (t_s <= brakes_at_s_) return led(t_s);
+  const CarrierMotion last = led(brakes_at_s_);
+  const Fading braking = fade(t_s - brakes_at_s_, kBraking_s);
+  return {last.position_w_m + braking.travelled_s * last.velocity_w_m_s, braking.share * last.velocity_w_m_s};
 }
 
 CarrierMotion CarrierFollower::at(double t_s) const {

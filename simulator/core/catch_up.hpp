@@ -1,10 +1,10 @@
 #pragma once
 // How a vehicle that was without setpoints takes them up again: not by a leap.
 //
-// It has come to a stand somewhere (extrapolation.hpp), and the next setpoint may ask for a place metres away. No
-// vehicle leaps there, and none should try: it closes the gap between what it did and what it is asked for by a quintic
-// that fades to nothing. An agent that hears where its vehicle is begins there, and leaves no gap to close: it calls
-// the vehicle back while that is already catching up, and is followed from where the vehicle is then.
+// It has come to a stand somewhere (extrapolation.hpp, on_silence.hpp), and the next setpoint may ask for a place
+// metres away. No vehicle leaps there, and none should try: it closes the gap between what it did and what it is asked
+// for by a quintic that fades to nothing. An agent that hears where its vehicle is begins there, and leaves no gap to
+// close: it calls the vehicle back while that is already catching up, and is followed from where the vehicle is then.
 //
 //   e0, e0'   gap in value and rate at t0, when setpoints come again
 //   e(t) = e0 v(x) + e0' T s(x)     x = (t − t0) / T, T = kCatchUp_s, v and s as in quintic.hpp
@@ -16,6 +16,9 @@ namespace gyre::simulator {
 inline constexpr double kCatchUp_s = 3.0;
 /// A target that changes its mind by more, and not the extrapolation of it.
 inline constexpr double kCalledElsewhere_m = 1e-3;
+
+/// Who gives a target: whoever gave the one before, or somebody else, who need not have had the same in mind.
+enum class Hand { kSame, kAnother };
 
 /// Quantity: a length, or a vector of them.
 template <class Quantity>

@@ -12,7 +12,7 @@
 // a transition begins. The velocity has no step anywhere; the acceleration has one, at H. PX4 leaves offboard control
 // after about the same silence (COM_OF_LOSS_T).
 
-#include "common/mechanics/quintic.hpp"
+#include "simulator/core/on_silence.hpp"
 
 namespace gyre::simulator {
 
@@ -30,9 +30,7 @@ struct ExtrapolationWeights {
 [[nodiscard]] inline ExtrapolationWeights extrapolate(double elapsed_s) {
   constexpr double kHorizon_s = kExtrapolationHorizon_s;
   if (elapsed_s <= kHorizon_s) return {elapsed_s, 0.5 * elapsed_s * elapsed_s, 1.0, elapsed_s};
-  const mechanics::Taylor<double> x = mechanics::progress(elapsed_s - kHorizon_s, kStoppingTime_s);
-  const double share = mechanics::value_left(x).value;
-  const double travelled_s = kStoppingTime_s * (x.value - mechanics::smooth_step_integral(x.value));
+  const auto [travelled_s, share] = fade(elapsed_s - kHorizon_s, kStoppingTime_s);
   return {kHorizon_s + travelled_s, 0.5 * kHorizon_s * kHorizon_s + kHorizon_s * travelled_s, share,
           kHorizon_s * share};
 }

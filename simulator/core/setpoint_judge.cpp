@@ -12,13 +12,32 @@ SetpointJudge::SetpointJudge(const mechanics::Plan& plan, double longest_rest_m)
   for (const mechanics::Carrier& carrier : plan.carriers) last_[carrier.id] = {};
 }
 
+SetpointJudge::Stamp SetpointJudge::judge_stamp(Last& last, SwarmTime stamp, LocalTime arrived) {
+  const auto apart = [](Duration a, Duration b) { return a > b ? a - b : b - a; };
+  const Duration delay = arrived.time_since_epoch() - stamp.time_since_epoch();
+  const Duration before = last.arrived.time_since_epoch() - last.swarm_time.time_since_epoch();
+  if (apart(delay, before) <= kContradiction) {
+    last.agreeing = 0;
+    return Stamp::kGoesOn;
+  }
+  last.agreeing = last.agreeing > 0 && apart(delay, last.contradicting) <= kContradiction ? last.agreeing + 1 : 1;
+  last.contradicting = delay;
+  return last.agreeing < kAgreeing ? Stamp::kContradicts : Stamp::kBeginsAnew;
+}
+
 std::optional<std::string> SetpointJudge::objection(const protocol::Setpoint& setpoint, LocalTime arrived) {
   if (auto text = nonsense(setpoint)) {
     ++dropped_.nonsense;
     return text;
   }
   Last& last = last_.at(setpoint.carrier);
-  const bool fresh_start = !last.any || arrived - last.arrived > from_seconds(kExtrapolationHorizon_s);
+  bool fresh_start = !last.any || arrived - last.arrived > from_seconds(kExtrapolationHorizon_s);
+  const Stamp stamp = fresh_start ? Stamp::kGoesOn : judge_stamp(last, setpoint.swarm_time, arrived);
+  if (stamp == Stamp::kContradicts) {
+    ++dropped_.nonsense;
+    return "carrier " + std::to_string(setpoint.carrier) + ": a setpoint stamped by another clock than those before";
+  }
+  fresh_start = fresh_start || stamp == Stamp::kBeginsAnew;
   if (!fresh_start && setpoint.swarm_time == last.swarm_time) {
     ++dropped_.duplicate;
     return "carrier " + std::to_string(setpoint.carrier) + ": the same setpoint twice";
@@ -27,7 +46,7 @@ std::optional<std::string> SetpointJudge::objection(const protocol::Setpoint& se
     ++dropped_.late;
     return "carrier " + std::to_string(setpoint.carrier) + ": a setpoint older than the one being flown";
   }
-  last = {true, setpoint.swarm_time, arrived};
+  last = {true, setpoint.swarm_time, arrived, stamp == Stamp::kBeginsAnew};
   return std::nullopt;
 }
 

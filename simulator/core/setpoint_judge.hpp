@@ -5,6 +5,9 @@
 // a few metres for the smallest rigs), and no faster or harder accelerated than anything that flies with a load. The
 // bounds keep nonsense out; whether a motion is wise is the certificate's business, not the simulator's.
 //
+// A stamp contradicts when it is further from this clock, by a second, than that of the setpoint before: flown, it
+// would make those after it old.
+//
 // Newer is judged by swarm time, which survives a restart of the agent (its sequence does not). A carrier whose last
 // accepted setpoint is older than the extrapolation horizon takes any time: the swarm may have started anew.
 
@@ -16,6 +19,12 @@
 #include "common/protocol/messages.hpp"
 
 namespace gyre::simulator {
+
+/// A stamp that is so far from where the last ones were, against the clock here, is believed when this many in a row
+/// agree on it: a swarm that starts anew, or a clock that was found anew. By then a vehicle has not yet gone on by
+/// itself (onward.hpp).
+inline constexpr Duration kContradiction = std::chrono::seconds(1);
+inline constexpr int kAgreeing = 4;
 
 inline constexpr double kReachFactor = 10.0;
 inline constexpr double kReachMargin_m = 10.0;
@@ -30,6 +39,9 @@ class SetpointJudge {
   /// Absent: fly it. Otherwise why not, in words; the drop is counted.
   [[nodiscard]] std::optional<std::string> objection(const protocol::Setpoint& setpoint, LocalTime arrived);
 
+  /// Whether the last one that is flown was stamped by another clock than those before.
+  [[nodiscard]] bool began_anew(CarrierId carrier) const { return last_.at(carrier).began_anew; }
+
   [[nodiscard]] const protocol::DropCounts& dropped() const { return dropped_; }
 
  private:
@@ -37,7 +49,12 @@ class SetpointJudge {
     bool any = false;
     SwarmTime swarm_time{};
     LocalTime arrived{};
+    bool began_anew = false;
+    Duration contradicting{};  ///< delay of the last one that did
+    int agreeing = 0;          ///< of those, in a row
   };
+  enum class Stamp { kGoesOn, kBeginsAnew, kContradicts };
+  [[nodiscard]] static Stamp judge_stamp(Last& last, SwarmTime stamp, LocalTime arrived);
 
   [[nodiscard]] std::optional<std::string> nonsense(const protocol::Setpoint& setpoint) const;
 

@@ -7,11 +7,13 @@
 
 #include "common/base/text.hpp"
 #include "common/mechanics/reference.hpp"
-#include "common/mechanics/rest_plan.hpp"
 #include "common/protocol/liveness.hpp"
+#include "common/protocol/sanity.hpp"
 #include "simulator/core/age_judge.hpp"
 #include "simulator/core/carrier_follower.hpp"
 #include "simulator/core/load_integrator.hpp"
+#include "simulator/core/on_silence.hpp"
+#include "simulator/core/onward.hpp"
 #include "simulator/core/setpoint_judge.hpp"
 #include "simulator/core/winch.hpp"
 #include "simulator/core/wind.hpp"
@@ -27,10 +29,14 @@ struct WaitingSetpoint {
 
 struct Vehicle {
   CarrierId id = 0;
+  OnSilence on_silence = OnSilence::kGoesOn;
   CarrierFollower follower;
   Winch winch;
   AgeJudge ages;
   protocol::Liveness led;
+  Onward onward;
+  std::optional<LocalTime> held;  ///< when the last setpoint was true, by the clock here
+  SwarmTime swarm_time{};         ///< and by the swarm's
 
   [[nodiscard]] Anchor anchor(double t_s) const {
     const CarrierMotion carrier = follower.at(t_s);
@@ -110,10 +116,17 @@ struct Simulator::World {
         out.notices.push_back({Notice::Level::kInfo, text("carrier %u is led by its agent", setpoint.carrier)});
       }
       vehicle.led.heard(arrived);
+      if (judge.began_anew(setpoint.carrier)) vehicle.ages = AgeJudge();
       const Duration age = vehicle.ages.age(setpoint.swarm_time, arrived);
       waiting.push_back({arrived, arrived - age, setpoint});
     }
     report_drops(arrived, out);
+  }
+
+  template <class Message>
+  void learn(const Message& message) {
+    const auto found = index.find(message.carrier);
+    if (found != index.end()) vehicles[found->second].onward.take(message);
   }
 
   void report_drops(LocalTime now, Outputs& out) {
@@ -169,7 +182,10 @@ struct Simulator::World {
       take_up(waiting.front(), begin_s);
       waiting.pop_front();
     }
-    for (Vehicle& vehicle : vehicles) vehicle.winch.tick(begin_s);
+    for (Vehicle& vehicle : vehicles) {
+      go_on(vehicle, begin_s);
+      vehicle.winch.tick(begin_s);
+    }
     wind.tick(begin_s);
     ++ticks;
     if (auto failure = integrator.advance_to(seconds(simulated()))) {
@@ -185,8 +201,24 @@ struct Simulator::World {
     const protocol::Setpoint& s = waited.setpoint;
     const double held_s = seconds(waited.held - start);
     Vehicle& vehicle = vehicles[index.at(s.carrier)];
-    vehicle.follower.command({s.position_w_m, s.velocity_w_m_s, s.acceleration_w_m_s2}, held_s, now_s);
-    vehicle.winch.command({s.winch_length_m, s.winch_rate_m_s, s.winch_acceleration_m_s2}, held_s, now_s);
+    vehicle.held = waited.held;
+    vehicle.swarm_time = s.swarm_time;
+    command(vehicle, s, held_s, now_s, Hand::kSame);
+  }
+
+  static void command(Vehicle& vehicle, const protocol::Setpoint& s, double held_s, double now_s, Hand hand) {
+    vehicle.follower.command({s.position_w_m, s.velocity_w_m_s, s.acceleration_w_m_s2}, held_s, now_s, hand);
+    vehicle.winch.command({s.winch_length_m, s.winch_rate_m_s, s.winch_acceleration_m_s2}, held_s, now_s, hand);
+  }
+
+  /// Without setpoints: along the path, by its own count of swarm time. One that holds brakes by itself.
+  void go_on(Vehicle& vehicle, double now_s) {
+    if (vehicle.on_silence == OnSilence::kHolds) return;
+    if (!vehicle.held || time() - *vehicle.held <= kGoesOnAfter) return;
+    const auto s = vehicle.onward.at(vehicle.swarm_time + (time() - *vehicle.held));
+    if (!s || s->carrier != vehicle.id) return;
+    // An agent that was merging back when it died led it beside its path; one that starts again tells of another path.
+    command(vehicle, *s, now_s, now_s, Hand::kAnother);
   }
 
   void publish(Outputs& out) {
@@ -227,7 +259,7 @@ Result<Simulator> Simulator::create(const mechanics::Plan& plan, const Simulatio
   if (auto error = objection(plan, settings)) return *error;
   std::vector<Vehicle> vehicles;
   double longest_rest_m = 0.0;
-  for (const mechanics::CarrierSlice& slice : mechanics::slices(mechanics::rest_plan(plan))) {
+  for (const mechanics::CarrierSlice& slice : mechanics::slices(plan)) {
     const mechanics::Reference rest = mechanics::evaluate(slice, 0.0);
     // l0 = l − s / k: the cable, stretched by its tension, is as long as the plan has it.
     const double unstretched_m = rest.length_m.value - rest.tension_n.value / plan.cable.stiffness_n_m;
@@ -236,10 +268,17 @@ Result<Simulator> Simulator::create(const mechanics::Plan& plan, const Simulatio
                    std::to_string(rest.length_m.value) + " m long under " + std::to_string(rest.tension_n.value) +
                    " N, which is no cable to simulate; look at its length law, and at cable.stiffness_n_m"};
     }
+    const OnSilence on_silence = settings.holds.count(slice.id) != 0 ? OnSilence::kHolds : OnSilence::kGoesOn;
     vehicles.push_back(
-        {slice.id, CarrierFollower(rest.position_w_m.value, settings.carrier_lag_s),
-         Winch(unstretched_m, {settings.winch_time_constant_s, settings.winch_rate_limit_m_s, seconds(settings.tick)}),
-         AgeJudge(), protocol::Liveness(kLongestSilence)});
+        {slice.id,
+         on_silence,
+         CarrierFollower(rest.position_w_m.value, settings.carrier_lag_s, on_silence),
+         Winch(unstretched_m, {settings.winch_time_constant_s, settings.winch_rate_limit_m_s, seconds(settings.tick)},
+               on_silence),
+         AgeJudge(),
+         protocol::Liveness(kLongestSilence),
+         Onward(),
+         {}});
     longest_rest_m = std::max(longest_rest_m, (rest.position_w_m.value - plan.load.position_w_m).norm());
   }
   return Simulator(std::make_unique<World>(plan, settings, start, std::move(vehicles), longest_rest_m));
@@ -253,6 +292,10 @@ Outputs Simulator::step(LocalTime now, const Event& event) {
   Outputs out;
   if (const auto* setpoint = std::get_if<protocol::Setpoint>(&event)) {
     world_->receive(now, *setpoint, out);
+  } else if (const auto* status = std::get_if<protocol::AgentStatus>(&event)) {
+    if (sane(*status)) world_->learn(*status);
+  } else if (const auto* held = std::get_if<protocol::HeldPlans>(&event)) {
+    if (sane(*held)) world_->learn(*held);
   } else {
     world_->advance(now, out);
   }

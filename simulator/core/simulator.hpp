@@ -7,6 +7,7 @@
 // publication to the next.
 //
 //   step(arrived, setpoint)    judged (setpoint_judge.hpp), then kept until its time
+//   step(arrived, status)      taken at once, and the plans that are held
 //   step(now, Advance{})       integrates to the last tick not after now, at most kTicksPerAdvance of them
 //
 // When the simulated time is behind (a stall of the process, a machine too slow), every missed tick is still
@@ -14,9 +15,9 @@
 // period after the last. More than kLongestCatchUp behind, the surplus is skipped: the world stood still meanwhile.
 // Both are reported, at most once per second.
 //
-// The flight begins at rest: carriers where the rest plan has them, cables paid out so that the load is in exact
-// equilibrium. A carrier without setpoints stays there. When CVODE fails twice on a tick, the load is held still over
-// that tick and starts afresh from there; that is reported and is the only untrue motion there is.
+// The flight begins at rest: carriers where the plan has them at its beginning, cables paid out so that the load is in
+// exact equilibrium. A carrier without setpoints stays there. When CVODE fails twice on a tick, the load is held still
+// over that tick and starts afresh from there; that is reported and is the only untrue motion there is.
 
 #include <memory>
 #include <optional>
@@ -47,7 +48,8 @@ inline constexpr int kTicksPerAdvance = 100;
 inline constexpr std::size_t kMaxWaitingSetpoints = 4096;
 
 struct Advance {};
-using Event = std::variant<protocol::Setpoint, Advance>;
+/// Of a carrier's agent: by its status and its plans the vehicle goes on when no more setpoints come (onward.hpp).
+using Event = std::variant<protocol::Setpoint, protocol::AgentStatus, protocol::HeldPlans, Advance>;
 
 struct LagReport {
   Duration behind{};

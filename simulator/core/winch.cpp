@@ -7,23 +7,25 @@
 
 namespace gyre::simulator {
 
-Winch::Winch(double rest_length_m, const WinchSettings& settings)
+Winch::Winch(double rest_length_m, const WinchSettings& settings, OnSilence on_silence)
     : exact_(!settings.time_constant_s && !settings.rate_limit_m_s),
       time_constant_s_(std::max(settings.time_constant_s.value_or(0.0), 3.0 * settings.tick_s)),
       rate_limit_m_s_(settings.rate_limit_m_s),
-      tick_s_(settings.tick_s) {
+      tick_s_(settings.tick_s),
+      on_silence_(on_silence) {
   target_.length_m = rest_length_m;
   begin_.length_m = rest_length_m;
 }
 
-void Winch::command(const WinchTarget& target, double held_s, double now_s) {
+void Winch::command(const WinchTarget& target, double held_s, double now_s, Hand hand) {
   const WinchMotion before = asked(now_s);
-  const bool slowed_down = led_ && now_s - target_since_s_ > kExtrapolationHorizon_s;
+  const bool slowed_down = led_ && (now_s - target_since_s_ > kExtrapolationHorizon_s || now_s > brakes_at_s_);
   led_ = true;
   target_ = target;
   target_since_s_ = held_s;
-  const bool called_elsewhere =
-      catch_up_.under_way(now_s) && std::abs(asked(now_s).length_m - before.length_m) > kCalledElsewhere_m;
+  brakes_at_s_ = brakes_at_s(on_silence_, now_s);
+  const bool called_elsewhere = (hand == Hand::kAnother || catch_up_.under_way(now_s)) &&
+                                std::abs(asked(now_s).length_m - before.length_m) > kCalledElsewhere_m;
   if (!slowed_down && !called_elsewhere) return;
   catch_up_ = CatchUp<double>(0.0);
   const WinchMotion wanted = asked(now_s);
@@ -40,12 +42,19 @@ void Winch::tick(double now_s) {
   acceleration_m_s2_ = (rate - begin_.rate_m_s) / tick_s_;
 }
 
-WinchMotion Winch::asked(double t_s) const {
+WinchMotion Winch::led(double t_s) const {
   const ExtrapolationWeights w = extrapolate(t_s - target_since_s_);
   const auto left = catch_up_.at(t_s);
   return {
       left.value + target_.length_m + w.by_velocity * target_.rate_m_s + w.by_acceleration * target_.acceleration_m_s2,
       left.rate + w.rate_by_velocity * target_.rate_m_s + w.rate_by_acceleration * target_.acceleration_m_s2};
+}
+
+WinchMotion Winch::asked(double t_s) const {
+  if (t_s <= brakes_at_s_) return led(t_s);
+  const WinchMotion last = led(brakes_at_s_);
+  const Fading braking = fade(t_s - brakes_at_s_, kBraking_s);
+  return {last.length_m + braking.travelled_s * last.rate_m_s, braking.share * last.rate_m_s};
 }
 
 WinchMotion Winch::at(double t_s) const {

@@ -2,14 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include "common/mechanics/orbit_figures.hpp"
 #include "tests/agent/one_agent.hpp"
 
 namespace gyre::agent {
 namespace {
 
 TEST_F(AgentTest, SendsNoSetpointWithoutSwarmTime) {
-  offer({kRest});
-  course_ = Course{1, {kRest, swarm()}, {}};
+  offer({kMotion});
+  course(kMotion);
   fly(seconds(2), false);
   beacon();
   EXPECT_FALSE(setpoint_);
@@ -17,47 +18,110 @@ TEST_F(AgentTest, SendsNoSetpointWithoutSwarmTime) {
 }
 
 TEST_F(AgentTest, SendsNoSetpointWithoutThePlan) {
-  offer({kMotion});
-  course_ = Course{1, {kRest, swarm()}, {}};
+  offer({kOther});
+  course(kMotion);
   fly(seconds(2));
   EXPECT_FALSE(setpoint_);
   EXPECT_EQ(status_->state, AgentState::kWaiting);
   EXPECT_TRUE(status_->course.base.number.none()) << "flies a course it does not hold";
 }
 
-TEST_F(AgentTest, FliesThePlanAtSwarmTimeAndCompensatesStretch) {
+TEST_F(AgentTest, RestsAtTheBeginningOfItsPlanAndCompensatesStretch) {
   rest();
   EXPECT_EQ(status_->state, AgentState::kReady);
-  const auto r = reference(kRest, course_->base.epoch);
+  const auto r = mechanics::evaluate(slice(kMotion), 0.0);
   EXPECT_LT((setpoint_->position_w_m - r.position_w_m.value).norm(), 1e-9);
+  EXPECT_EQ(setpoint_->velocity_w_m_s.norm(), 0.0);
+  EXPECT_EQ(setpoint_->acceleration_w_m_s2.norm(), 0.0);
+  EXPECT_EQ(setpoint_->winch_rate_m_s, 0.0);
   EXPECT_NEAR(setpoint_->cable_length_m, r.length_m.value, 1e-9);
-  const double k = slice(kRest).cable_stiffness_n_m;
+  const double k = slice(kMotion).cable_stiffness_n_m;
   EXPECT_NEAR(setpoint_->winch_length_m, r.length_m.value - (k > 0.0 ? r.tension_n.value / k : 0.0), 1e-9);
   EXPECT_LT(std::abs(gyre::seconds(status_->swarm_time.time_since_epoch() - now_.time_since_epoch() - kOffset)), 0.2);
 }
 
-TEST_F(AgentTest, SaysWhatItHoldsAndAccepts) {
+TEST_F(AgentTest, FliesItsPlanAtAnyPaceByTheChainRule) {
   rest();
-  EXPECT_EQ(status_->accepted, (std::vector<PlanNumber>{kRest, kMotion, kOther}));
-  ASSERT_EQ(held_->slices.size(), 3U);
-  EXPECT_TRUE(held_->slices[1].slice == slice(kMotion));
+  vehicle_.reset();
+  watch_for_steps();
+  const auto values_and_rates_belong_together = visit_;
+  double slowest = 1.0, fastest = 0.0, hardest_1_s = 0.0;
+  visit_ = [&](const protocol::Setpoint& s) {
+    values_and_rates_belong_together(s);
+    // p = P(tau), v = pace P', a = pace² P'' + pace' P'; the winch as the carrier.
+    const protocol::PlanMoment moment = course_->moment(s.swarm_time);
+    const mechanics::Reference r = mechanics::evaluate(slice(kMotion), gyre::seconds(moment.at.time_since_epoch()));
+    const double pace = moment.pace;
+    EXPECT_LT((s.position_w_m - r.position_w_m.value).norm(), 1e-8);
+    EXPECT_LT((s.velocity_w_m_s - pace * r.position_w_m.first).norm(), 1e-8);
+    EXPECT_LT(
+        (s.acceleration_w_m_s2 - pace * pace * r.position_w_m.second - moment.rate_1_s * r.position_w_m.first).norm(),
+        1e-8);
+    const double k = slice(kMotion).cable_stiffness_n_m;
+    const auto winch = r.length_m - (k > 0.0 ? 1.0 / k : 0.0) * r.tension_n;
+    EXPECT_NEAR(s.winch_length_m, winch.value, 1e-8);
+    EXPECT_NEAR(s.winch_rate_m_s, pace * winch.first, 1e-8);
+    EXPECT_NEAR(s.winch_acceleration_m_s2, pace * pace * winch.second + moment.rate_1_s * winch.first, 1e-8);
+    slowest = std::min(slowest, pace), fastest = std::max(fastest, pace);
+    hardest_1_s = std::max(hardest_1_s, std::abs(moment.rate_1_s));
+  };
+  for (const double pace : {1.0, 0.3, 0.7, 0.0}) {
+    ramp(milliseconds(200), seconds(2), pace);
+    fly(seconds(3));
+    EXPECT_EQ(status_->state, pace > 0.0 ? AgentState::kFlying : AgentState::kReady);
+  }
+  EXPECT_EQ(slowest, 0.0);
+  EXPECT_EQ(fastest, 1.0);
+  EXPECT_GT(hardest_1_s, 0.5);
 }
 
-TEST_F(AgentTest, ConfirmsOnlyWhatItHoldsAndInTime) {
+TEST_F(AgentTest, SaysWhatItHoldsAndAccepts) {
   rest();
-  transition({kTerm, 99}, milliseconds(600), seconds(5), Stage::kProposed);
+  EXPECT_EQ(status_->accepted, (std::vector<PlanNumber>{kMotion, kOther}));
+  ASSERT_EQ(held_->slices.size(), 2U);
+  EXPECT_TRUE(held_->slices[1].slice == slice(kOther));
+}
+
+TEST_F(AgentTest, ConfirmsWhatItHoldsAndFliesNoProposal) {
+  rest();
+  proposal_ = with_transition({kTerm, 99}, milliseconds(600), seconds(5));
   fly(milliseconds(300));
   EXPECT_EQ(status_->confirmed, 0U) << "a plan it does not hold";
-  course_->transitions.clear();
-  transition(kMotion, -milliseconds(1), seconds(5), Stage::kProposed);
+  proposal_ = with_transition(kOther, milliseconds(600), seconds(5));
+  ++proposal_->term;
   fly(milliseconds(300));
-  EXPECT_EQ(status_->confirmed, 0U) << "too late";
-  course_->transitions.clear();
-  transition(kMotion, milliseconds(600), seconds(5), Stage::kProposed);
-  fly(milliseconds(100));
-  EXPECT_EQ(status_->confirmed, id_);
-  fly(seconds(10));
-  EXPECT_EQ(status_->state, AgentState::kReady) << "a proposal is not flown";
+  EXPECT_EQ(status_->confirmed, 0U) << "another coordinator's";
+  proposal_ = *course_;
+  fly(milliseconds(300));
+  EXPECT_EQ(status_->confirmed, 0U) << "what is flown already";
+  proposal_ = with_ramp(milliseconds(600), seconds(2), 1.0);
+  const Outputs out = beacon();
+  ASSERT_TRUE(out.status) << "its word is waited for";
+  EXPECT_EQ(out.status->confirmed, proposal_->revision);
+  ++proposal_->revision;
+  fly(milliseconds(30));
+  EXPECT_EQ(status_->confirmed, proposal_->revision) << "the newest";
+  fly(seconds(5));
+  EXPECT_EQ(status_->state, AgentState::kReady);
+  EXPECT_EQ(status_->course.revision, course_->revision);
+}
+
+TEST_F(AgentTest, ConfirmsNoRampThatItsVehicleCannotFly) {
+  // The plan itself is well within what the vehicle can do.
+  const mechanics::CarrierFigures figures = mechanics::orbit_figures(slice(kMotion));
+  mechanics::Limits vehicle;
+  vehicle.acceleration_max_m_s2 = 1.5 * figures.acceleration_max_m_s2;
+  restart(2, vehicle);
+  rest();
+  ASSERT_EQ(status_->accepted.front(), kMotion);
+  proposal_ = with_ramp(milliseconds(600), milliseconds(300), 1.0);
+  fly(milliseconds(300));
+  EXPECT_EQ(status_->confirmed, 0U);
+  const std::uint64_t refused = proposal_->revision;
+  proposal_ = with_ramp(milliseconds(600), seconds(10), 1.0);
+  proposal_->revision = refused + 1;
+  fly(milliseconds(300));
+  EXPECT_EQ(status_->confirmed, refused + 1);
 }
 
 TEST_F(AgentTest, SpeaksFourTimesAsOftenWhileItsWordIsWaitedFor) {
@@ -68,48 +132,69 @@ TEST_F(AgentTest, SpeaksFourTimesAsOftenWhileItsWordIsWaitedFor) {
     return status_->sequence - before;
   };
   EXPECT_NEAR(static_cast<double>(words_in_a_second()), 10.0, 1.0);
-  transition(kMotion, milliseconds(600), seconds(4));
+  ramp(milliseconds(600), seconds(4), 1.0);
   EXPECT_GT(words_in_a_second(), 30U) << "until it is seen that all have begun";
   fly(seconds(1));
   EXPECT_NEAR(static_cast<double>(words_in_a_second()), 10.0, 1.0);
 }
 
 TEST_F(AgentTest, FollowsATransitionWithoutAStepAndSettles) {
-  rest();
+  engage();
   watch_for_steps();
-  transition(kMotion, milliseconds(600), seconds(4));
+  transition(kOther, milliseconds(600), seconds(4));
   fly(seconds(2));
   EXPECT_EQ(status_->state, AgentState::kFlying);
+  ASSERT_EQ(status_->course.transitions.size(), 1U);
   fly(seconds(4));
-  EXPECT_EQ(status_->course.base.number, kMotion);
+  EXPECT_EQ(status_->course.base.number, kOther);
   EXPECT_TRUE(status_->course.transitions.empty());
-  const auto r = reference(kMotion, course_->transitions[0].to.epoch);
-  EXPECT_LT((setpoint_->position_w_m - r.position_w_m.value).norm(), 1e-9);
+  EXPECT_LT(off_the_plan_m(), 1e-9);
+}
+
+TEST_F(AgentTest, ATransitionWaitsWhereThePhaseRests) {
+  engage();
+  watch_for_steps();
+  transition(kOther, milliseconds(200), seconds(2));
+  ramp(milliseconds(300), seconds(1), 0.0);
+  fly(seconds(20));
+  ASSERT_EQ(status_->course.transitions.size(), 1U) << "it runs on plan time, which stands";
+  EXPECT_EQ(status_->state, AgentState::kReady);
+  EXPECT_EQ(setpoint_->velocity_w_m_s.norm(), 0.0);
+  ramp(milliseconds(200), seconds(1), 1.0);
+  fly(seconds(5));
+  EXPECT_EQ(status_->course.base.number, kOther);
+  EXPECT_LT(off_the_plan_m(), 1e-9);
 }
 
 TEST_F(AgentTest, AGoHeardAfterItsStartIsMergedNotJumpedTo) {
   rest();
+  vehicle_.reset();
   watch_for_steps();
-  transition(kMotion, milliseconds(100), seconds(3));
+  ramp(milliseconds(100), seconds(3), 1.0);
   fly(seconds(2), false);  // all beacons of two seconds lost
   EXPECT_EQ(status_->state, AgentState::kAlone);
-  fly(seconds(8));
-  const auto r = reference(kMotion, course_->transitions[0].to.epoch);
-  EXPECT_LT((setpoint_->position_w_m - r.position_w_m.value).norm(), 1e-9);
+  EXPECT_EQ(setpoint_->velocity_w_m_s.norm(), 0.0);
+  fly(seconds(10));
+  EXPECT_LT(off_the_plan_m(), 1e-9);
 }
 
 TEST_F(AgentTest, ManyLayersTurnedBackAndFrozenAreContinuous) {
-  rest();
+  engage();
   watch_for_steps();
-  transition(kMotion, milliseconds(200), seconds(5));
+  transition(kOther, milliseconds(200), seconds(5));
   fly(seconds(2));
-  transition(kRest, milliseconds(150), seconds(2));
+  transition(kMotion, milliseconds(150), seconds(2));
   fly(seconds(1));
-  transition(kOther, milliseconds(150), seconds(3));
+  ramp(milliseconds(150), seconds(1), 0.0);
   fly(milliseconds(700));
+  transition(kOther, milliseconds(150), seconds(3));
+  ramp(milliseconds(200), seconds(1), 1.0);
+  fly(milliseconds(700));
+  ramp(milliseconds(-300), seconds(2), 0.5);
   transition(kMotion, milliseconds(-300), seconds(2));
-  fly(seconds(6));
+  fly(seconds(12));
   EXPECT_EQ(status_->course.base.number, kMotion);
+  EXPECT_LT(off_the_plan_m(), 1e-9);
 }
 
 TEST_F(AgentTest, SaysNothingAtTheMomentWhenItsCableWouldGoSlack) {
@@ -121,11 +206,13 @@ TEST_F(AgentTest, SaysNothingAtTheMomentWhenItsCableWouldGoSlack) {
     slice.law = mechanics::LengthLaw::fixed(2.0);
     return slice;
   };
-  tell(protocol::PlanOffer{1, kTerm, {{kRest, pulls(1.0)}, {kOther, pulls(-1.0)}}});
-  course_ = Course{1, {kRest, swarm()}, {}};
+  protocol::PlanOffer both = plans({});
+  both.slices = {{kMotion, pulls(1.0)}, {kOther, pulls(-1.0)}};
+  tell(both);
+  course(kMotion, 1.0);
   fly(seconds(3));
   transition(kOther, setpoint_->swarm_time + milliseconds(600) - swarm(), seconds(1));
-  const SwarmTime middle = course_->transitions.back().start + milliseconds(500);
+  const SwarmTime middle = setpoint_->swarm_time + milliseconds(1100);
   bool up = false;
   bool down = false;
   visit_ = [&](const protocol::Setpoint& s) {
@@ -138,9 +225,7 @@ TEST_F(AgentTest, SaysNothingAtTheMomentWhenItsCableWouldGoSlack) {
 }
 
 TEST_F(AgentTest, FliesOnAloneAndSaysSo) {
-  rest();
-  transition(kMotion, milliseconds(200), seconds(2));
-  fly(seconds(3));
+  engage();
   watch_for_steps();
   const Duration before = status_->clock_uncertainty;
   fly(seconds(20), false);
@@ -154,17 +239,21 @@ TEST_F(AgentTest, FliesOnAloneAndSaysSo) {
 }
 
 TEST_F(AgentTest, ANewTermWithTheSameCourseIsNoStep) {
-  rest();
-  transition(kMotion, milliseconds(200), seconds(2));
+  engage();
+  transition(kOther, milliseconds(200), seconds(2));
   fly(milliseconds(1200));
   watch_for_steps();
-  tell(Beacon{2 * kTerm, 1, swarm(), *course_});
+  Course taken_over = next();
+  taken_over.term = 2 * kTerm;
+  tell(Beacon{2 * kTerm, 1, swarm(), taken_over, {}, {}});
   fly(seconds(2), false);
   EXPECT_EQ(status_->term, 2 * kTerm);
-  EXPECT_EQ(status_->course.base.number, kMotion);
+  EXPECT_EQ(status_->course.term, 2 * kTerm);
+  EXPECT_EQ(status_->course.base.number, kOther);
+  EXPECT_LT(off_the_plan_m(), 1e-9);
   const auto before = agent_->dropped().wrong_term;
   beacon();
-  offer({kRest});
+  offer({kMotion});
   EXPECT_EQ(agent_->dropped().wrong_term, before + 2) << "the former coordinator is not heard any more";
   EXPECT_EQ(status_->term, 2 * kTerm);
 }
@@ -187,11 +276,11 @@ TEST_F(AgentTest, ANewTermsSwarmTimeMayBeALittleOffAndIsWalkedTo) {
 
 TEST_F(AgentTest, WhatWasConfirmedToOneTermIsNotConfirmedToTheNext) {
   rest();
-  transition(kMotion, milliseconds(600), seconds(5), Stage::kProposed);
+  proposal_ = with_ramp(milliseconds(600), seconds(5), 1.0);
   fly(milliseconds(100));
-  ASSERT_EQ(status_->confirmed, 1U);
-  course_->transitions.clear();
-  tell(Beacon{2 * kTerm, 1, swarm(), *course_});
+  ASSERT_EQ(status_->confirmed, proposal_->revision);
+  course_->term = 2 * kTerm;
+  tell(Beacon{2 * kTerm, 1, swarm(), *course_, {}, {}});
   fly(milliseconds(200), false);
   EXPECT_EQ(status_->confirmed, 0U);
 }
@@ -199,7 +288,7 @@ TEST_F(AgentTest, WhatWasConfirmedToOneTermIsNotConfirmedToTheNext) {
 TEST_F(AgentTest, CountsDuplicatesLateOnesAndNonsense) {
   rest();
   const auto before = agent_->dropped();
-  const Beacon last{kTerm, sequence_, swarm(), *course_};
+  const Beacon last{kTerm, sequence_, swarm(), *course_, {}, {}};
   tell(last);
   EXPECT_EQ(agent_->dropped().duplicate, before.duplicate + 1);
   Beacon old = last;
@@ -216,11 +305,13 @@ TEST_F(AgentTest, CountsDuplicatesLateOnesAndNonsense) {
   future.swarm_time += seconds(2);
   tell(future);
   EXPECT_EQ(agent_->dropped().nonsense, before.nonsense + 1);
-  protocol::PlanOffer foreign{2, kTerm, {{kOther, slice(kOther)}}};
+  protocol::PlanOffer foreign = plans({kOther});
+  foreign.carrier = 2;
   foreign.slices[0].slice.id = 2;
   tell(foreign);
   EXPECT_EQ(agent_->dropped().nonsense, before.nonsense + 2);
-  protocol::PlanOffer nan{1, kTerm, {{{kTerm, 9}, slice(kOther)}}};
+  protocol::PlanOffer nan = plans({kOther});
+  nan.slices[0].number = {kTerm, 9};
   nan.slices[0].slice.rate_rad_s = std::numeric_limits<double>::quiet_NaN();
   tell(nan);
   EXPECT_EQ(agent_->dropped().nonsense, before.nonsense + 3);
@@ -254,16 +345,21 @@ TEST_F(AgentTest, ALieToldTwiceIsOneLie) {
 
 TEST_F(AgentTest, RefusesAPlanItsVehicleCannotFlyAndNeverFliesIt) {
   mechanics::Limits weak;
-  weak.speed_max_m_s = 1e-3;
+  weak.speed_max_m_s = 1.1 * mechanics::orbit_figures(slice(kMotion)).speed_m_s.max;
   restart(2, weak);
   rest();
-  EXPECT_EQ(status_->accepted, std::vector<PlanNumber>{kRest});
-  EXPECT_FALSE(status_->refused.none());
+  EXPECT_EQ(status_->accepted, std::vector<PlanNumber>{kMotion});
+  EXPECT_EQ(status_->refused, kOther);
   EXPECT_NE(status_->refusal.find("speed"), std::string::npos);
   EXPECT_NE(heard_.find("plan refused"), std::string::npos);
-  transition(kMotion, milliseconds(300), seconds(2));
-  fly(seconds(4));
-  EXPECT_EQ(status_->course.base.number, kRest);
+  proposal_ = with_transition(kOther, milliseconds(300), seconds(2));
+  fly(milliseconds(100));
+  EXPECT_EQ(status_->confirmed, 0U);
+  proposal_.reset();
+  transition(kOther, milliseconds(300), seconds(2));
+  ramp(milliseconds(300), seconds(2), 1.0);
+  fly(seconds(5));
+  EXPECT_EQ(status_->course.base.number, kMotion);
   EXPECT_TRUE(status_->course.transitions.empty());
   EXPECT_LT(setpoint_->velocity_w_m_s.norm(), 1e-12);
 }
@@ -271,7 +367,7 @@ TEST_F(AgentTest, RefusesAPlanItsVehicleCannotFlyAndNeverFliesIt) {
 TEST_F(AgentTest, TellsNoMorePlansThanAMessageTakes) {
   rest();
   for (std::uint64_t round = 0; round < 3; ++round) {
-    protocol::PlanOffer offer{1, kTerm, {}};
+    protocol::PlanOffer offer = plans({});
     for (std::uint64_t i = 0; i < protocol::kMaxPlans; ++i) {
       offer.slices.push_back({{kTerm, 10 + round * protocol::kMaxPlans + i}, slice(kOther)});
     }
@@ -280,7 +376,7 @@ TEST_F(AgentTest, TellsNoMorePlansThanAMessageTakes) {
     EXPECT_LE(held_->slices.size(), protocol::kMaxPlans);
     EXPECT_EQ(status_->accepted.back(), offer.slices.back().number);
   }
-  EXPECT_EQ(status_->course.base.number, kRest) << "what is flown is kept";
+  EXPECT_EQ(status_->course.base.number, kMotion) << "what is flown is kept";
   fly(milliseconds(100));
   EXPECT_LT(swarm() - setpoint_->swarm_time, milliseconds(20));
 }

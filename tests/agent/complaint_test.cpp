@@ -15,7 +15,7 @@ class ComplaintTest : public AgentTest {
 TEST_F(ComplaintTest, IsSettledStepByStepAtAStart) {
   fly(milliseconds(100), false);
   EXPECT_EQ(complaint(), "no coordinator was heard");
-  course_ = Course{1, {kRest, swarm()}, {}};
+  course(kMotion);
   beacon();
   EXPECT_EQ(complaint(), "swarm time was not found");
   fly(seconds(1));
@@ -41,11 +41,11 @@ TEST_F(ComplaintTest, NamesAClockThatIsBeyondWhatThePlanInForceAllows) {
   rest();
   const Duration uncertainty = status_->clock_uncertainty;
   ASSERT_GT(uncertainty, Duration::zero());
-  tell(Beacon{kTerm, ++sequence_, swarm(), *course_, 3 * uncertainty});
+  tell(Beacon{kTerm, ++sequence_, swarm(), *course_, {}, 3 * uncertainty});
   EXPECT_EQ(complaint(), "none");
-  tell(Beacon{kTerm, ++sequence_, swarm(), *course_, uncertainty});
+  tell(Beacon{kTerm, ++sequence_, swarm(), *course_, {}, uncertainty});
   EXPECT_EQ(complaint().rfind("its clock may be wrong by ", 0), 0U) << complaint();
-  tell(Beacon{kTerm, ++sequence_, swarm(), *course_, Duration::zero()});
+  tell(Beacon{kTerm, ++sequence_, swarm(), *course_, {}, Duration::zero()});
   EXPECT_EQ(complaint(), "none") << "a plan that does not move allows any";
 }
 

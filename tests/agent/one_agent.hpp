@@ -10,7 +10,6 @@
 #include <memory>
 #include <string>
 
-#include "common/mechanics/rest_plan.hpp"
 #include "tests/mechanics/plans.hpp"
 
 namespace gyre::agent {
@@ -19,12 +18,11 @@ using protocol::AgentState;
 using protocol::Beacon;
 using protocol::Course;
 using protocol::PlanNumber;
-using protocol::Stage;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 inline constexpr std::uint64_t kTerm = 0x10000;
-inline constexpr PlanNumber kRest{kTerm, 1}, kMotion{kTerm, 2}, kOther{kTerm, 3};
+inline constexpr PlanNumber kMotion{kTerm, 1}, kOther{kTerm, 2};
 /// The swarm's clock is this far from the agent's.
 inline constexpr Duration kOffset = -std::chrono::hours(5);
 
@@ -32,12 +30,16 @@ class AgentTest : public testing::Test {
  protected:
   AgentTest() { restart(1); }
 
-  void restart(std::uint64_t incarnation, const mechanics::Limits& vehicle = {}) {
+  [[nodiscard]] static std::unique_ptr<Agent> new_agent(std::uint64_t incarnation,
+                                                        const mechanics::Limits& vehicle = {}) {
     AgentOptions options;
     options.carrier = 1;
     options.incarnation = incarnation;
     options.vehicle = vehicle;
-    agent_ = std::make_unique<Agent>(options);
+    return std::make_unique<Agent>(options);
+  }
+  void restart(std::uint64_t incarnation, const mechanics::Limits& vehicle = {}) {
+    agent_ = new_agent(incarnation, vehicle);
   }
 
   [[nodiscard]] SwarmTime swarm() const { return SwarmTime(now_.time_since_epoch() + kOffset); }
@@ -67,48 +69,91 @@ class AgentTest : public testing::Test {
     }
   }
 
-  Outputs beacon() { return tell(Beacon{term_, ++sequence_, swarm() + off_, *course_}); }
-
-  Outputs offer(const std::vector<PlanNumber>& numbers, std::uint64_t term = kTerm) {
-    protocol::PlanOffer offer{1, term, {}};
-    for (const PlanNumber& n : numbers) offer.slices.push_back({n, slice(n)});
-    return tell(offer);
+  Outputs beacon() {
+    course_->term = term_;  // whoever leads puts his term to all that he says
+    return tell(Beacon{term_, ++sequence_, swarm() + off_, *course_, proposal_, {}});
   }
 
-  [[nodiscard]] mechanics::CarrierSlice slice(const PlanNumber& n) const {
+  [[nodiscard]] static protocol::PlanOffer plans(const std::vector<PlanNumber>& numbers, std::uint64_t term = kTerm) {
+    static std::uint64_t offers = 0;
+    protocol::PlanOffer offer{1, term, ++offers, {}, {}};
+    for (const PlanNumber& n : numbers) offer.slices.push_back({n, slice(n)});
+    return offer;
+  }
+  Outputs offer(const std::vector<PlanNumber>& numbers, std::uint64_t term = kTerm) {
+    return tell(plans(numbers, term));
+  }
+
+  [[nodiscard]] static mechanics::CarrierSlice slice(const PlanNumber& n) {
     mechanics::Plan plan = mechanics::test::polygon_plan(4);
-    if (n == kRest) plan = mechanics::rest_plan(plan);
     if (n == kOther) plan.cycle.rate_rad_s *= 1.3;
     return mechanics::slices(plan).front();
   }
 
+  /// A course by this plan, which rests at plan time 0 or moves from there on.
+  void course(const PlanNumber& plan, double pace = 0.0) {
+    course_ = Course{};
+    course_->term = term_;
+    course_->revision = 1;
+    course_->base = {plan, PlanTime{}};
+    course_->pace.ramps = {{swarm(), Duration::zero(), {PlanTime{}, pace, 0.0, 0.0}, pace}};
+  }
+
+  /// Holds all plans, with its vehicle in its place, at rest.
   void rest() {
-    offer({kRest, kMotion, kOther});
-    course_ = Course{1, {kRest, swarm()}, {}};
+    offer({kMotion, kOther});
+    course(kMotion);
     vehicle_at_rest();
     fly(seconds(3));
   }
 
+  /// In full motion, which nobody's vehicle tells anything of.
+  void engage() {
+    rest();
+    vehicle_.reset();
+    ramp(milliseconds(200), seconds(2), 1.0);
+    fly(seconds(3));
+  }
+
   void vehicle_at_rest() {
-    const auto r = mechanics::evaluate(slice(kRest), 0.0);
+    const auto r = mechanics::evaluate(slice(kMotion), 0.0);
     vehicle_ = protocol::CarrierState{};
     vehicle_->carrier = 1;
     vehicle_->position_w_m = r.position_w_m.value;
     vehicle_->tension_n = r.tension_n.value;
     vehicle_->winch_length_m = vehicle_->cable_length_m = r.length_m.value;
-    if (const double k = slice(kRest).cable_stiffness_n_m; k > 0.0) vehicle_->winch_length_m -= r.tension_n.value / k;
+    if (const double k = slice(kMotion).cable_stiffness_n_m; k > 0.0) vehicle_->winch_length_m -= r.tension_n.value / k;
   }
 
-  void transition(const PlanNumber& to, Duration in, Duration duration, Stage stage = Stage::kGo) {
-    course_->transitions.push_back({++id_, {to, swarm() + in}, swarm() + in, duration, stage});
-    ++course_->revision;
+  // What the coordinator does to the course.
+  [[nodiscard]] Course next() const {
+    Course next = *course_;
+    protocol::settle(next, swarm());
+    ++next.revision;
+    return next;
   }
+  [[nodiscard]] Course with_ramp(Duration in, Duration duration, double pace) const {
+    Course with = next();
+    with.pace = with.pace.with_ramp(swarm() + in, duration, pace);
+    return with;
+  }
+  [[nodiscard]] Course with_transition(const PlanNumber& to, Duration in, Duration duration) const {
+    Course with = next();
+    const PlanTime from = with.moment(swarm() + in).at;
+    with.transitions.push_back({{to, from}, from, duration});
+    return with;
+  }
+  void ramp(Duration in, Duration duration, double pace) { course_ = with_ramp(in, duration, pace); }
+  void transition(const PlanNumber& to, Duration in, Duration duration) { course_ = with_transition(to, in, duration); }
 
   /// From now on, no setpoint may be further from the last than its own rates explain.
   void watch_for_steps() {
-    visit_ = [this, last = setpoint_](const protocol::Setpoint& s) mutable {
+    visit_ = [this, last = setpoint_, then = now_ - milliseconds(10)](const protocol::Setpoint& s) mutable {
       if (last) {
-        const double dt = gyre::seconds(s.swarm_time - last->swarm_time);
+        // By the vehicle's clock where swarm time was found anew: it flies on by its own.
+        const double local_s = gyre::seconds(now_ - then);
+        const double swarm_s = gyre::seconds(s.swarm_time - last->swarm_time);
+        const double dt = std::abs(swarm_s - local_s) < 1e-3 ? swarm_s : local_s;
         const Eigen::Vector3d mean = 0.5 * (s.velocity_w_m_s + last->velocity_w_m_s);
         EXPECT_LT((s.position_w_m - last->position_w_m - dt * mean).norm(), 1e-4);
         EXPECT_LT((s.velocity_w_m_s - last->velocity_w_m_s).norm(), 0.1);
@@ -118,11 +163,20 @@ class AgentTest : public testing::Test {
         EXPECT_GT(dt, 0.0);
       }
       last = s;
+      then = now_;
     };
   }
 
-  [[nodiscard]] mechanics::Reference reference(const PlanNumber& n, SwarmTime epoch) const {
-    return mechanics::evaluate(slice(n), gyre::seconds(setpoint_->swarm_time - epoch));
+  /// What the plan at the bottom of the course has for the last setpoint's moment, at full pace.
+  [[nodiscard]] mechanics::Reference planned() const {
+    Course settled = *course_;
+    protocol::settle(settled, setpoint_->swarm_time);
+    EXPECT_TRUE(settled.transitions.empty()) << "there is more than one plan";
+    return mechanics::evaluate(slice(settled.base.number),
+                               gyre::seconds(settled.moment(setpoint_->swarm_time).at - settled.base.epoch));
+  }
+  [[nodiscard]] double off_the_plan_m() const {
+    return (setpoint_->position_w_m - planned().position_w_m.value).norm();
   }
 
   std::uint64_t term_ = kTerm;
@@ -130,6 +184,7 @@ class AgentTest : public testing::Test {
   LocalTime now_{-std::chrono::hours(1)};  // below zero: nothing may depend on where a clock begins
   std::unique_ptr<Agent> agent_;
   std::optional<Course> course_;
+  std::optional<Course> proposal_;
   std::optional<protocol::CarrierState> vehicle_;
   std::optional<protocol::AgentStatus> status_;
   std::optional<protocol::HeldPlans> held_;
@@ -137,7 +192,6 @@ class AgentTest : public testing::Test {
   std::function<void(const protocol::Setpoint&)> visit_;
   std::string heard_;
   std::uint64_t sequence_ = 0;
-  std::uint64_t id_ = 0;
 };
 
 }  // namespace gyre::agent

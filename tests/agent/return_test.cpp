@@ -63,9 +63,8 @@ TEST_F(AgentTest, AfterALongStallAMuteVehicleIsNotWaitedForForEver) {
 }
 
 TEST_F(AgentTest, AVehicleThatHeardNothingIsCalledFromWhereItStopped) {
-  rest();
-  transition(kMotion, milliseconds(200), seconds(2));
-  fly(seconds(3));
+  engage();
+  vehicle_at_rest();
   vehicle_->position_w_m = setpoint_->position_w_m;
   vehicle_->winch_length_m = setpoint_->winch_length_m;
   fly(milliseconds(20));
@@ -79,18 +78,13 @@ TEST_F(AgentTest, AVehicleThatHeardNothingIsCalledFromWhereItStopped) {
   watch_for_steps();
   vehicle_.reset();
   fly(seconds(20));
-  const auto r = reference(kMotion, course_->transitions[0].to.epoch);
-  EXPECT_LT((setpoint_->position_w_m - r.position_w_m.value).norm(), 1e-9);
+  EXPECT_LT(off_the_plan_m(), 1e-9);
 }
 
 TEST_F(AgentTest, AVehicleThatWasOnlyNotHeardFliesOn) {
-  rest();
-  transition(kMotion, milliseconds(200), seconds(2));
-  vehicle_.reset();
-  fly(seconds(3));
+  engage();
   watch_for_steps();
-  vehicle_ = protocol::CarrierState{};
-  vehicle_->carrier = 1;
+  vehicle_at_rest();
   vehicle_->position_w_m = setpoint_->position_w_m + Eigen::Vector3d(0.02, 0.0, 0.0);  // it tracks as well as it can
   fly(milliseconds(20));
   vehicle_.reset();
@@ -106,9 +100,9 @@ TEST_F(AgentTest, RestartedInFlightItBeginsWhereItsCarrierIs) {
   restart(3);
   setpoint_.reset();
   std::optional<protocol::Setpoint> first;
-  course_->transitions.clear();
-  course_->base = {kMotion, swarm() - seconds(7)};
-  offer({kRest, kMotion, kOther});
+  course(kMotion, 1.0);
+  course_->base.epoch -= seconds(7);
+  offer({kMotion, kOther});
   visit_ = [&](const protocol::Setpoint& s) {
     if (!first) first = s;
   };
@@ -117,8 +111,7 @@ TEST_F(AgentTest, RestartedInFlightItBeginsWhereItsCarrierIs) {
   EXPECT_LT((first->position_w_m - vehicle_->position_w_m).norm(), 0.01);
   watch_for_steps();
   fly(seconds(20));
-  const auto r = reference(kMotion, course_->base.epoch);
-  EXPECT_LT((setpoint_->position_w_m - r.position_w_m.value).norm(), 1e-9);
+  EXPECT_LT(off_the_plan_m(), 1e-9);
 }
 
 TEST_F(AgentTest, RestartedInFlightItAllowsForTheAgeOfItsVehiclesWord) {
@@ -128,7 +121,7 @@ TEST_F(AgentTest, RestartedInFlightItAllowsForTheAgeOfItsVehiclesWord) {
   const protocol::CarrierState said = *vehicle_;
   restart(3);
   setpoint_.reset();
-  offer({kRest, kMotion, kOther});
+  offer({kMotion, kOther});
   const LocalTime then = now_;
   tell(said);
   vehicle_.reset();
@@ -144,9 +137,9 @@ TEST_F(AgentTest, RestartedAndStalledBeforeItsFirstSetpointItBeginsWhereItsCarri
   rest();
   restart(3);
   setpoint_.reset();
-  course_->transitions.clear();
-  course_->base = {kMotion, swarm() - seconds(7)};
-  offer({kRest, kMotion, kOther});
+  course(kMotion, 1.0);
+  course_->base.epoch -= seconds(7);
+  offer({kMotion, kOther});
   // Until it has swarm time and a course, and not one tick longer.
   while (status_->incarnation != 3 || status_->course.base.number.none()) {
     now_ += milliseconds(1);
@@ -169,12 +162,74 @@ TEST_F(AgentTest, RestartedAndStalledBeforeItsFirstSetpointItBeginsWhereItsCarri
 }
 
 TEST_F(AgentTest, RestartedItWaitsForItsVehicleButNotForEver) {
-  offer({kRest, kMotion});
-  course_ = Course{1, {kMotion, swarm()}, {}};
+  offer({kMotion});
+  course(kMotion, 1.0);
   fly(milliseconds(400));
   EXPECT_FALSE(setpoint_) << "where the carrier is, is not known yet";
   fly(milliseconds(400));
   EXPECT_TRUE(setpoint_);
+}
+
+TEST_F(AgentTest, RestartedItDoesNotBeginWhereItsVehicleWasLongAgo) {
+  rest();
+  restart(3);
+  setpoint_.reset();
+  vehicle_->position_w_m += Eigen::Vector3d(0.3, -0.2, 0.1);
+  tell(*vehicle_);
+  vehicle_.reset();
+  course_.reset();
+  fly(milliseconds(1100));  // swarm time is found meanwhile, and nothing is heard of the vehicle
+  offer({kMotion, kOther});
+  course(kMotion, 1.0);
+  fly(milliseconds(400));
+  EXPECT_FALSE(setpoint_) << "its vehicle may say where it is by now";
+  std::optional<protocol::Setpoint> first;
+  visit_ = [&](const protocol::Setpoint& s) {
+    if (first) return;
+    first = s;
+    EXPECT_LT(off_the_plan_m(), 1e-9);
+  };
+  fly(milliseconds(200));
+  EXPECT_TRUE(first);
+}
+
+TEST_F(AgentTest, AClockThatStoodStillIsFoundAnewAndMeanwhileTheVehicleKnowsBetter) {
+  engage();
+  off_ = seconds(20);  // this process stood still so long, or its machine: the swarm went on
+  vehicle_at_rest();
+  vehicle_->position_w_m.x() += 0.1;
+  std::optional<protocol::Setpoint> first;
+  visit_ = [&](const protocol::Setpoint& s) {
+    if (!first) first = s;
+  };
+  fly(milliseconds(500));
+  EXPECT_FALSE(first) << "beacons come from the future: what it would say is for another time";
+  EXPECT_EQ(heard_.find("a clock jumped"), std::string::npos) << "a few strange words are no proof";
+  fly(seconds(2));
+  EXPECT_NE(heard_.find("a clock jumped"), std::string::npos) << heard_;
+  ASSERT_TRUE(first);
+  EXPECT_LT((first->position_w_m - vehicle_->position_w_m).norm(), 1e-3) << "it begins where the vehicle has got to";
+  EXPECT_LT(std::abs(gyre::seconds(setpoint_->swarm_time - swarm() - off_)), 0.05);
+  vehicle_.reset();
+  watch_for_steps();
+  fly(seconds(60));
+  EXPECT_LT(off_the_plan_m(), 1e-6);
+  EXPECT_EQ(status_->state, AgentState::kFlying) << "beacons are heard again";
+}
+
+TEST_F(AgentTest, OneBeaconFromTheFutureSilencesNobody) {
+  engage();
+  watch_for_steps();
+  Beacon lie{kTerm, sequence_ + 1, swarm() + seconds(1), *course_, {}, {}};
+  tell(lie);
+  int setpoints = 0;
+  const auto watch = visit_;
+  visit_ = [&](const protocol::Setpoint& s) {
+    ++setpoints;
+    watch(s);
+  };
+  fly(milliseconds(100));
+  EXPECT_GE(setpoints, 9);
 }
 
 }  // namespace

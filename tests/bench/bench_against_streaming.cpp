@@ -26,9 +26,9 @@
 
 #include "agent/core/agent.hpp"
 #include "common/base/random_stream.hpp"
-#include "common/mechanics/rest_plan.hpp"
-#include "common/mechanics/transition.hpp"
+#include "common/mechanics/reference.hpp"
 #include "common/mission/mission.hpp"
+#include "common/protocol/pace.hpp"
 #include "coordinator/core/coordinator.hpp"
 #include "simulator/core/simulator.hpp"
 
@@ -162,7 +162,7 @@ class GyreFlight {
 
   Felt fly() {
     for (Duration now{}; now < kEnd; now += kStep) {
-      const bool engaged = coordinator_.course().transitions.empty() && coordinator_.course().revision > 1;
+      const bool engaged = coordinator_.course().moment(SwarmTime(now)).pace == 1.0;
       GYRE_ENSURE(engaged || gyre::seconds(now) < kLossFrom_s, "the motion is flown when the losses begin");
       while (auto event = to_coordinator_.arrived(now)) conduct(now, *event);
       if (LocalTime(now) >= next_conduct_) conduct(now, gyre::coordinator::Tick{});
@@ -192,7 +192,7 @@ class GyreFlight {
   };
 
   static gyre::coordinator::Job job(const gyre::mission::Mission& mission) {
-    return {mission.name, mission.plan, std::nullopt, gyre::protocol::AgentLoss::kFreeze};
+    return {mission.name, mission.plan, std::nullopt, mission.silence};
   }
   static gyre::coordinator::CoordinatorOptions options() {
     gyre::coordinator::CoordinatorOptions options;
@@ -244,16 +244,19 @@ class GyreFlight {
 
 enum class Gap { kHold, kExtrapolate };
 
-protocol::Setpoint setpoint_of(const mechanics::CarrierSlice& slice, const mechanics::Reference& r) {
+protocol::Setpoint setpoint_of(const mechanics::CarrierSlice& slice, const protocol::PlanMoment& moment) {
+  const mechanics::Reference r = mechanics::evaluate(slice, gyre::seconds(moment.at.time_since_epoch()));
+  const auto position = mechanics::paced(r.position_w_m, moment.pace, moment.rate_1_s);
   protocol::Setpoint s;
-  s.position_w_m = r.position_w_m.value;
-  s.velocity_w_m_s = r.position_w_m.first;
-  s.acceleration_w_m_s2 = r.position_w_m.second;
+  s.position_w_m = position.value;
+  s.velocity_w_m_s = position.first;
+  s.acceleration_w_m_s2 = position.second;
   s.direction_w = r.direction_w.value;
   s.tension_n = r.tension_n.value;
   s.cable_length_m = r.length_m.value;
   auto winch = r.length_m;
   if (slice.cable_stiffness_n_m > 0.0) winch = winch - (1.0 / slice.cable_stiffness_n_m) * r.tension_n;
+  winch = mechanics::paced(winch, moment.pace, moment.rate_1_s);
   s.winch_length_m = winch.value;
   s.winch_rate_m_s = winch.first;
   s.winch_acceleration_m_s2 = winch.second;
@@ -279,8 +282,9 @@ protocol::Setpoint flown(protocol::Setpoint s, SwarmTime now, Gap gap) {
 
 Felt stream(const gyre::mission::Mission& mission, Gap gap) {
   World world(mission);
-  const auto rest = mechanics::slices(mechanics::rest_plan(mission.plan));
   const auto motion = mechanics::slices(mission.plan);
+  // Started as Gyre does, smoothly, from 3 s on.
+  const auto pace = protocol::Pace{}.with_ramp(SwarmTime(std::chrono::seconds(3)), std::chrono::seconds(10), 1.0);
   InFlight<protocol::Setpoint> radio;
   std::map<gyre::CarrierId, protocol::Setpoint> heard;
   std::uint64_t sequence = 0;
@@ -291,9 +295,7 @@ Felt stream(const gyre::mission::Mission& mission, Gap gap) {
     }
     if (now % kSlot == Duration::zero()) {
       for (std::size_t i = 0; i < motion.size(); ++i) {
-        // Engaged as Gyre does, smoothly, from 3 s on.
-        const std::vector<mechanics::TimedLayer> layers{{&rest[i], 0.0, 0.0, 0.0}, {&motion[i], 3.0, 3.0, 10.0}};
-        auto s = setpoint_of(motion[i], mechanics::evaluate_course(layers.data(), 2, gyre::seconds(now)));
+        auto s = setpoint_of(motion[i], pace.at(SwarmTime(now)));
         s.carrier = mission.plan.carriers[i].id;
         s.swarm_time = SwarmTime(now);
         radio.send(2 * i, now, s);

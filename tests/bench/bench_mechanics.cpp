@@ -37,7 +37,7 @@ void full_setpoint(benchmark::State& state) {
 BENCHMARK(full_setpoint);
 
 void setpoint_in_a_transition(benchmark::State& state) {
-  const std::vector<CarrierSlice> below = slices(static_plan(test::paper_plan(), 0.0));
+  const std::vector<CarrierSlice> below = slices(test::still_plan(test::paper_plan(), 0.0));
   const std::vector<CarrierSlice> above = slices(test::paper_plan());
   const TimedLayer layers[] = {{&below[0], 0.0, 0.0, 0.0}, {&above[0], 0.0, 0.0, 1e9}};
   double t_s = 0.0;
@@ -85,13 +85,13 @@ void certify_with_stiffness(benchmark::State& state) {
 }
 BENCHMARK(certify_with_stiffness)->RangeMultiplier(4)->Range(4, 64)->Unit(benchmark::kMicrosecond);
 
-void rehearse_engagement_of_one_carrier(benchmark::State& state) {
-  const std::vector<CarrierSlice> below = slices(static_plan(test::paper_plan(), 0.0));
+void rehearse_change_of_one_carrier(benchmark::State& state) {
+  const std::vector<CarrierSlice> below = slices(test::still_plan(test::paper_plan(), 0.0));
   const std::vector<CarrierSlice> above = slices(test::paper_plan());
   const std::vector<TimedLayer> layers = {{&below[0], 0.0, 0.0, 0.0}, {&above[0], 0.0, 0.0, 20.0}};
   for (auto _ : state) benchmark::DoNotOptimize(transition_figures(layers, 0.0, 20.0));
 }
-BENCHMARK(rehearse_engagement_of_one_carrier)->Unit(benchmark::kMicrosecond);
+BENCHMARK(rehearse_change_of_one_carrier)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace gyre::mechanics

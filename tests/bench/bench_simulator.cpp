@@ -5,8 +5,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "common/mechanics/rest_plan.hpp"
-#include "common/mechanics/transition.hpp"
+#include "common/protocol/pace.hpp"
 #include "simulator/core/simulator.hpp"
 #include "tests/simulator/rigs.hpp"
 
@@ -39,11 +38,7 @@ void paper_period(benchmark::State& state) {
 BENCHMARK(paper_period)->Unit(benchmark::kMillisecond);
 
 void paper_period_floor_standing_carriers(benchmark::State& state) {
-  const mechanics::Plan rest = mechanics::rest_plan(rigs::paper());
-  Surroundings still;
-  still.anchors.resize(rest.carriers.size());
-  rigs::planned(rest, rigs::Stretch::kCompensated)(0.0, still);
-  fly(state, rest, rigs::fixed(still.anchors));
+  fly(state, rigs::paper(), rigs::resting(rigs::paper(), rigs::Stretch::kCompensated));
 }
 BENCHMARK(paper_period_floor_standing_carriers)->Unit(benchmark::kMillisecond);
 
@@ -51,7 +46,7 @@ BENCHMARK(paper_period_floor_standing_carriers)->Unit(benchmark::kMillisecond);
 void online_second(benchmark::State& state) {
   const mechanics::Plan plan = rigs::paper();
   const std::vector<mechanics::CarrierSlice> slices = mechanics::slices(plan);
-  const std::vector<mechanics::CarrierSlice> rest = mechanics::slices(mechanics::rest_plan(plan));
+  const protocol::Pace pace = protocol::Pace{}.with_ramp(SwarmTime{}, std::chrono::seconds(20), 1.0);
   SimulationSettings settings;
   if (state.range(0) != 0) {
     settings.carrier_lag_s = 0.1;
@@ -62,19 +57,18 @@ void online_second(benchmark::State& state) {
   Simulator simulator = Simulator::create(plan, settings, now).value();
   for (auto _ : state) {
     for (int i = 0; i < 100; ++i) {
-      const double t_s = seconds(now.time_since_epoch());
+      const protocol::PlanMoment moment = pace.at(SwarmTime(now.time_since_epoch()));
       for (std::size_t c = 0; c < slices.size(); ++c) {
-        const std::array<mechanics::Layer<double>, 2> layers = {
-            mechanics::Layer<double>{&rest[c], t_s, mechanics::constant(1.0)},
-            mechanics::Layer<double>{&slices[c], t_s, mechanics::smooth_step(t_s, 20.0)}};
-        const mechanics::Reference r = mechanics::evaluate_mixture(layers.data(), layers.size());
-        const auto winch = r.length_m - (1.0 / plan.cable.stiffness_n_m) * r.tension_n;
+        const mechanics::Reference r = mechanics::evaluate(slices[c], seconds(moment.at.time_since_epoch()));
+        const auto position = mechanics::paced(r.position_w_m, moment.pace, moment.rate_1_s);
+        const auto unpaced = r.length_m - (1.0 / plan.cable.stiffness_n_m) * r.tension_n;
+        const auto winch = mechanics::paced(unpaced, moment.pace, moment.rate_1_s);
         protocol::Setpoint s;
         s.carrier = slices[c].id;
         s.swarm_time = SwarmTime(now.time_since_epoch());
-        s.position_w_m = r.position_w_m.value;
-        s.velocity_w_m_s = r.position_w_m.first;
-        s.acceleration_w_m_s2 = r.position_w_m.second;
+        s.position_w_m = position.value;
+        s.velocity_w_m_s = position.first;
+        s.acceleration_w_m_s2 = position.second;
         s.winch_length_m = winch.value;
         s.winch_rate_m_s = winch.first;
         s.winch_acceleration_m_s2 = winch.second;

@@ -12,19 +12,14 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-Job job() {
-  Job job;
-  job.name = "polygon";
-  job.plan = mechanics::test::polygon_plan(3);
-  return job;
-}
+constexpr std::size_t kCarriers = 3;
 
 std::string complaint(test::SwarmOfAgents& swarm) {
   return swarm.coordinator().complaint(swarm.now).value_or("none");
 }
 
 TEST(Complaint, NamesWhoIsNotHeard) {
-  test::SwarmOfAgents swarm(job());
+  test::SwarmOfAgents swarm(test::job(kCarriers));
   swarm.stop_agent(2);
   EXPECT_EQ(complaint(swarm), "has heard nobody yet");
   swarm.fly(seconds(3));
@@ -43,9 +38,9 @@ TEST(Complaint, NamesWhoIsNotHeard) {
 TEST(Complaint, NamesClocksThatMayDisagreeBeyondTheBudgetThatTheBeaconTells) {
   CoordinatorOptions options;
   options.engage_when_ready = true;
-  test::SwarmOfAgents swarm(job(), options);
+  test::SwarmOfAgents swarm(test::job(kCarriers), options);
   swarm.fly(seconds(30));
-  const mechanics::Plan plan = job().plan;
+  const mechanics::Plan plan = test::job(kCarriers).plan;
   const double budget_s = mechanics::skew_budget_s(mechanics::slices(plan), plan.load.mass_kg * plan.gravity_m_s2);
   ASSERT_EQ(swarm.coordinator().course().base.number, swarm.beacon->course.base.number);
   EXPECT_EQ(swarm.beacon->skew_budget, from_seconds(budget_s)) << "in the motion";

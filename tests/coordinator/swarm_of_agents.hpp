@@ -1,6 +1,10 @@
 #pragma once
-// A coordinator and its agents in one process on one clock: messages arrive at once, or not at all.
+// A coordinator and its agents in one process on one clock: messages arrive at once, or not at all. Whatever a test
+// does with them, at every beacon everything is checked that has to hold at every moment of every flight.
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
@@ -10,20 +14,9 @@
 
 #include "agent/core/agent.hpp"
 #include "coordinator/core/coordinator.hpp"
-#include "tests/mechanics/plans.hpp"
+#include "tests/coordinator/jobs.hpp"
 
 namespace gyre::coordinator::test {
-
-/// Four carriers on a polygon, and nothing else that matters.
-inline Job job() {
-  Job job;
-  job.plan = mechanics::test::polygon_plan(4);
-  return job;
-}
-
-inline bool says(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
-}
 
 class SwarmOfAgents {
  public:
@@ -32,23 +25,26 @@ class SwarmOfAgents {
     for (const mechanics::Carrier& carrier : job.plan.carriers) start_agent(carrier.id);
   }
 
-  void start_coordinator() {
-    coordinator_ = std::make_unique<Coordinator>(job_, options_);
+  void start_coordinator() { start_coordinator(job_, options_); }
+  void start_coordinator(const Job& job, const CoordinatorOptions& options) {
+    coordinator_ = std::make_unique<Coordinator>(job, options);
+    silence = job.silence;
     finished.reset();
     for (const auto& [id, held] : held_) tell(held);  // transient local
   }
   void stop_coordinator() { coordinator_.reset(), offers_.clear(); }
 
   void start_agent(CarrierId id, const mechanics::Limits& vehicle = {}) {
-    agent::AgentOptions options;
-    options.carrier = id;
-    options.incarnation = ++incarnations_;
-    options.vehicle = vehicle;
-    options.vehicle_wait = Duration::zero();
-    agents_[id] = std::make_unique<agent::Agent>(options);
+    agents_[id] = new_agent(id, vehicle);
     if (offers_.count(id) > 0) tell_agent(id, offers_.at(id));  // transient local
   }
   void stop_agent(CarrierId id) { agents_.erase(id), held_.erase(id); }
+  /// One more agent that claims this carrier.
+  void start_twin(CarrierId id) {
+    twins_[id] = new_agent(id, {});
+    if (offers_.count(id) > 0) tell_agent(id, offers_.at(id));
+  }
+  void stop_twin(CarrierId id) { twins_.erase(id); }
 
   void tell(const Event& event) {
     if (!coordinator_) return;
@@ -58,17 +54,20 @@ class SwarmOfAgents {
     if (out.finished) finished = out.finished;
     if (out.status) status = out.status;
     for (const protocol::PlanOffer& offer : out.offers) {
-      most_offered = std::max(most_offered, offer.slices.size());
-      last_offers[offer.carrier] = offer;
+      EXPECT_LE(offer.slices.size(), protocol::kMaxPlans);
       offers_[offer.carrier] = offer;
       tell_agent(offer.carrier, offer);
     }
-    if (out.time_reply) {
+    if (out.time_reply && deaf.count(out.time_reply->carrier) == 0) {
       tell_agent(out.time_reply->carrier, agent::TimeReplyArrived{*out.time_reply, now});
     }
     if (out.beacon) {
+      check_invariants(beacon, *out.beacon, silence);
+      for (const auto& [id, offer] : offers_) {
+        if (nobody_knows.count(id) == 0) check_that_plans_are_offered(*out.beacon, offer);
+      }
       beacon = out.beacon;
-      for (const auto& [id, unused] : job_carriers()) {
+      for (const CarrierId id : carriers()) {
         if (deaf.count(id) == 0) tell_agent(id, *out.beacon);
       }
     }
@@ -77,25 +76,61 @@ class SwarmOfAgents {
   void fly(Duration duration) {
     for (const LocalTime end = now + duration; now < end && !finished; now += std::chrono::milliseconds(10)) {
       tell(Tick{});
-      for (const auto& [id, unused] : job_carriers()) tell_agent(id, agent::Tick{});
+      for (const CarrierId id : carriers()) tell_agent(id, agent::Tick{});
       if (visit) visit();
     }
   }
+  /// As long as that takes, which is not for ever.
+  template <class Condition>
+  void fly_until(Condition holds, Duration longest = std::chrono::seconds(60)) {
+    for (const LocalTime end = now + longest; now < end && !finished && !holds();) fly(std::chrono::milliseconds(10));
+    EXPECT_TRUE(holds()) << news;
+  }
 
   /// The one answer to this command, after it had its time.
-  [[nodiscard]] std::string command(protocol::CommandKind kind, Duration patience = std::chrono::seconds(10)) {
-    const std::uint64_t id = ++commands_;
-    tell(protocol::Command{id, kind, ""});
-    return answer_to(id, patience);
+  [[nodiscard]] std::string command(protocol::Command command, Duration patience = std::chrono::seconds(10)) {
+    command.id = ++commands_;
+    tell(command);
+    return answer_to(command.id, patience);
   }
-  [[nodiscard]] std::string retune(const Job& job) {
+  [[nodiscard]] std::string command(protocol::CommandKind kind, Duration patience = std::chrono::seconds(10)) {
+    protocol::Command command;
+    command.kind = kind;
+    return this->command(command, patience);
+  }
+  [[nodiscard]] std::string pace(double pace, Duration patience = std::chrono::seconds(10)) {
+    protocol::Command command;
+    command.kind = protocol::CommandKind::kPace;
+    command.pace = pace;
+    return this->command(command, patience);
+  }
+  [[nodiscard]] std::string retune(const Job& job, Duration patience = std::chrono::seconds(10)) {
     const std::uint64_t id = ++commands_;
     tell(Retune{id, job});
-    return answer_to(id, std::chrono::seconds(10));
+    return answer_to(id, patience);
   }
 
   Coordinator& coordinator() { return *coordinator_; }
   agent::Agent& agent(CarrierId id) { return *agents_.at(id); }
+  [[nodiscard]] const protocol::Course& course() const { return beacon->course; }
+  [[nodiscard]] protocol::PlanMoment moment() const { return course().moment(beacon->swarm_time); }
+  [[nodiscard]] double pace() const { return moment().pace; }
+  [[nodiscard]] bool rests() const { return course().rests(beacon->swarm_time); }
+  [[nodiscard]] bool moves() const {
+    double speed = 0.0;
+    for (const auto& [id, s] : setpoints) speed = std::max(speed, s.velocity_w_m_s.norm());
+    return speed > 1e-6;
+  }
+  /// Whether all agents that live fly one and the same phase, from now on for so long, and as the coordinator has it.
+  void expect_one_phase(Duration ahead) const {
+    for (Duration in{}; in <= ahead; in += std::chrono::milliseconds(50)) {
+      const SwarmTime then = beacon->swarm_time + in;
+      for (const auto& [id, agent] : agents_) {
+        const Duration off = agent->course().moment(then).at - course().moment(then).at;
+        EXPECT_LE(std::abs(off.count()), 1) << "carrier " << id;
+      }
+    }
+  }
 
   LocalTime now{std::chrono::hours(1)};
   std::string news;
@@ -105,18 +140,30 @@ class SwarmOfAgents {
   std::optional<protocol::CoordinatorStatus> status;
   std::map<CarrierId, protocol::Setpoint> setpoints;
   std::map<CarrierId, protocol::AgentStatus> statuses;
-  std::map<CarrierId, protocol::PlanOffer> last_offers;
-  std::set<CarrierId> deaf;  ///< hear no beacon
+  std::set<CarrierId> deaf;  ///< hear no beacon and no time; plans are told again until they arrive
   std::set<CarrierId> mute;  ///< nothing they say arrives
   std::function<void(protocol::AgentStatus&)> change_status;
   std::function<void()> visit;
-  std::size_t most_offered = 0;
+  protocol::Silence silence;         ///< of the mission in force
+  std::set<CarrierId> nobody_knows;  ///< whose part of the plan in force is lost
 
  private:
-  [[nodiscard]] std::map<CarrierId, bool> job_carriers() const {
-    std::map<CarrierId, bool> out;
-    for (const auto& [id, agent] : agents_) out[id] = true;
+  [[nodiscard]] std::vector<CarrierId> carriers() const {
+    std::vector<CarrierId> out;
+    for (const auto& [id, agent] : agents_) out.push_back(id);
+    for (const auto& [id, agent] : twins_) {
+      if (agents_.count(id) == 0) out.push_back(id);
+    }
     return out;
+  }
+
+  [[nodiscard]] std::unique_ptr<agent::Agent> new_agent(CarrierId id, const mechanics::Limits& vehicle) {
+    agent::AgentOptions options;
+    options.carrier = id;
+    options.incarnation = ++incarnations_;
+    options.vehicle = vehicle;
+    options.vehicle_wait = Duration::zero();
+    return std::make_unique<agent::Agent>(options);
   }
 
   [[nodiscard]] std::string answer_to(std::uint64_t id, Duration patience) {
@@ -130,10 +177,15 @@ class SwarmOfAgents {
   }
 
   void tell_agent(CarrierId id, const agent::Event& event) {
-    const auto found = agents_.find(id);
-    if (found == agents_.end()) return;
-    const agent::Outputs out = found->second->step(now, event);
-    if (out.setpoint) setpoints[id] = *out.setpoint;
+    if (const auto found = agents_.find(id); found != agents_.end()) {
+      const agent::Outputs out = found->second->step(now, event);
+      if (out.setpoint) setpoints[id] = *out.setpoint;
+      hear(id, out);
+    }
+    if (const auto found = twins_.find(id); found != twins_.end()) hear(id, found->second->step(now, event));
+  }
+
+  void hear(CarrierId id, const agent::Outputs& out) {
     if (mute.count(id) > 0) return;
     if (out.held) {
       held_[id] = *out.held;
@@ -152,6 +204,7 @@ class SwarmOfAgents {
   CoordinatorOptions options_;
   std::unique_ptr<Coordinator> coordinator_;
   std::map<CarrierId, std::unique_ptr<agent::Agent>> agents_;
+  std::map<CarrierId, std::unique_ptr<agent::Agent>> twins_;
   std::map<CarrierId, protocol::PlanOffer> offers_;
   std::map<CarrierId, protocol::HeldPlans> held_;
   std::uint64_t incarnations_ = 0;

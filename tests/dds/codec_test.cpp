@@ -138,6 +138,46 @@ TEST(Codec, PutsEveryQuantityIntoItsOwnField) {
   EXPECT_EQ(wire->winch_acceleration_m_s2(), 17);
 }
 
+TEST(Codec, PutsWhatACourseIsMadeOfIntoItsOwnFields) {
+  Beacon beacon;
+  Course& course = beacon.proposal.emplace();
+  course.term = 1;
+  course.revision = 2;
+  course.wish = {0.25, true, Wisher::kPerson};
+  course.pace.ramps = {{SwarmTime(Duration(3)), Duration(4), {PlanTime(Duration(5)), 0.1, 0.2, 0.3}, 0.4}};
+  course.lease = SwarmTime(Duration(6));
+  course.stopping = Duration(7);
+  course.base = {{8, 9}, PlanTime(Duration(10))};
+  course.transitions = {{{{11, 12}, PlanTime(Duration(13))}, PlanTime(Duration(14)), Duration(15)}};
+  const auto encoded = dds::encode(beacon);
+  ASSERT_TRUE(encoded);
+  ASSERT_EQ(encoded->proposal().size(), 1U);
+  const auto& wire = encoded->proposal().front();
+  EXPECT_EQ(wire.term(), 1U);
+  EXPECT_EQ(wire.revision(), 2U);
+  EXPECT_EQ(wire.wish().pace(), 0.25);
+  EXPECT_TRUE(wire.wish().rest_when_changed());
+  EXPECT_EQ(wire.wish().by(), 3);
+  ASSERT_EQ(wire.pace().size(), 1U);
+  EXPECT_EQ(wire.pace()[0].swarm_start_ns(), 3);
+  EXPECT_EQ(wire.pace()[0].duration_ns(), 4);
+  EXPECT_EQ(wire.pace()[0].plan_from_ns(), 5);
+  EXPECT_EQ(wire.pace()[0].from_pace(), 0.1);
+  EXPECT_EQ(wire.pace()[0].from_rate_1_s(), 0.2);
+  EXPECT_EQ(wire.pace()[0].from_curvature_1_s2(), 0.3);
+  EXPECT_EQ(wire.pace()[0].target_pace(), 0.4);
+  EXPECT_EQ(wire.swarm_lease_ns(), std::vector<std::int64_t>{6});
+  EXPECT_EQ(wire.stopping_ns(), 7);
+  EXPECT_EQ(wire.base().number().term(), 8U);
+  EXPECT_EQ(wire.base().number().revision(), 9U);
+  EXPECT_EQ(wire.base().plan_epoch_ns(), 10);
+  ASSERT_EQ(wire.transitions().size(), 1U);
+  EXPECT_EQ(wire.transitions()[0].to().number().revision(), 12U);
+  EXPECT_EQ(wire.transitions()[0].to().plan_epoch_ns(), 13);
+  EXPECT_EQ(wire.transitions()[0].plan_start_ns(), 14);
+  EXPECT_EQ(wire.transitions()[0].plan_duration_ns(), 15);
+}
+
 // By hand, so that every release of Fast DDS is held to the same bytes: XCDR1 puts eight bytes at multiples of eight,
 // where XCDR2 would be content with four, and says so in the first two bytes.
 TEST(Codec, TravelsAsPlainCdr) {
@@ -180,10 +220,36 @@ TEST(Codec, ListsOverTheirBoundNeitherGoNorCome) {
   status.course.transitions.resize(kMaxTransitions + 1);
   EXPECT_FALSE(dds::encode(status));
 
+  for (const bool proposed : {false, true}) {
+    Beacon ramps;
+    Course& course = proposed ? ramps.proposal.emplace() : ramps.course;
+    course.pace.ramps.resize(kMaxRamps);
+    EXPECT_TRUE(dds::encode(ramps));
+    course.pace.ramps.resize(kMaxRamps + 1);
+    EXPECT_FALSE(dds::encode(ramps));
+  }
+
   auto wire_beacon = *dds::encode(Beacon{});
   wire_beacon.course().transitions().resize(kMaxTransitions + 1, wire_beacon.course().transitions().emplace_back());
   EXPECT_FALSE(dds::decode(wire_beacon));
-  auto wire_offer = *dds::encode(PlanOffer{0, 0, {NumberedSlice{}}});
+  auto wire_ramps = *dds::encode(Beacon{});
+  wire_ramps.course().pace().resize(kMaxRamps);
+  EXPECT_TRUE(dds::decode(wire_ramps));
+  wire_ramps.course().pace().emplace_back();
+  EXPECT_FALSE(dds::decode(wire_ramps));
+  auto wire_leases = *dds::encode(Beacon{});
+  wire_leases.course().swarm_lease_ns().assign(1, 5);
+  EXPECT_TRUE(dds::decode(wire_leases));
+  wire_leases.course().swarm_lease_ns().assign(2, 5);
+  EXPECT_FALSE(dds::decode(wire_leases));
+  auto wire_proposals = *dds::encode(Beacon{});
+  wire_proposals.proposal().assign(1, wire_proposals.course());
+  EXPECT_TRUE(dds::decode(wire_proposals));
+  wire_proposals.proposal().assign(2, wire_proposals.course());
+  EXPECT_FALSE(dds::decode(wire_proposals));
+  wire_proposals.proposal().assign(1, wire_ramps.course());
+  EXPECT_FALSE(dds::decode(wire_proposals)) << "what is proposed is read as strictly as what is flown";
+  auto wire_offer = *dds::encode(PlanOffer{0, 0, 0, {NumberedSlice{}}, {}});
   const auto entry = wire_offer.slices().front();
   wire_offer.slices().resize(kMaxPlans, entry);
   EXPECT_TRUE(dds::decode(wire_offer));
@@ -204,19 +270,22 @@ TEST(Codec, ListsOverTheirBoundNeitherGoNorCome) {
 
 TEST(Codec, EnumeratorsThatDoNotExistAreNoMessage) {
   Beacon beacon;
-  beacon.course.transitions.resize(1);
-  for (const int value : {0, 3, 255}) {
+  beacon.proposal.emplace();
+  for (const int value : {0, 6, 255}) {
     auto wire = *dds::encode(beacon);
     ASSERT_TRUE(dds::decode(wire));
-    wire.course().transitions().front().stage(static_cast<std::uint8_t>(value));
+    wire.course().wish().by(static_cast<std::uint8_t>(value));
+    EXPECT_FALSE(dds::decode(wire)) << value;
+    wire = *dds::encode(beacon);
+    wire.proposal().front().wish().by(static_cast<std::uint8_t>(value));
     EXPECT_FALSE(dds::decode(wire)) << value;
   }
   for (const int value : {0, 5, 255}) {
-    auto offer = *dds::encode(PlanOffer{1, 1, {NumberedSlice{}}});
+    auto offer = *dds::encode(PlanOffer{1, 1, 1, {NumberedSlice{}}, {}});
     ASSERT_TRUE(dds::decode(offer));
     offer.slices().front().slice().law().kind(static_cast<std::uint8_t>(value));
     EXPECT_FALSE(dds::decode(offer)) << value;
-    auto held = *dds::encode(HeldPlans{1, 1, {NumberedSlice{}}});
+    auto held = *dds::encode(HeldPlans{1, 1, {NumberedSlice{}}, {}});
     ASSERT_TRUE(dds::decode(held));
     held.slices().front().slice().law().kind(static_cast<std::uint8_t>(value));
     EXPECT_FALSE(dds::decode(held)) << value;
@@ -224,6 +293,8 @@ TEST(Codec, EnumeratorsThatDoNotExistAreNoMessage) {
     ASSERT_TRUE(dds::decode(status));
     status.state(static_cast<std::uint8_t>(value));
     EXPECT_FALSE(dds::decode(status)) << value;
+  }
+  for (const int value : {0, 6, 255}) {
     auto command = *dds::encode(Command{});
     ASSERT_TRUE(dds::decode(command));
     command.kind(static_cast<std::uint8_t>(value));
@@ -232,9 +303,12 @@ TEST(Codec, EnumeratorsThatDoNotExistAreNoMessage) {
 }
 
 TEST(Codec, AMissionIsSentWholeOrNotAtAll) {
-  EXPECT_TRUE(dds::encode(Command{1, CommandKind::kRetune, std::string(kMaxMissionBytes, 'm')}));
-  EXPECT_FALSE(dds::encode(Command{1, CommandKind::kRetune, std::string(kMaxMissionBytes + 1, 'm')}));
-  EXPECT_FALSE(dds::encode(Command{1, CommandKind::kRetune, std::string("name\0hidden", 11)}));
+  const auto retune = [](std::string mission) {
+    return Command{1, CommandKind::kRetune, 1.0, std::nullopt, std::move(mission)};
+  };
+  EXPECT_TRUE(dds::encode(retune(std::string(kMaxMissionBytes, 'm'))));
+  EXPECT_FALSE(dds::encode(retune(std::string(kMaxMissionBytes + 1, 'm'))));
+  EXPECT_FALSE(dds::encode(retune(std::string("name\0hidden", 11))));
 }
 
 TEST(Codec, TextsAreCutBetweenCharacters) {

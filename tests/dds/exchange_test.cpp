@@ -99,8 +99,8 @@ TEST(Plan, ReachesWhoComesLate) {
   const auto coordinator = tests::open_coordinator(options);
   ASSERT_TRUE(coordinator);
   const auto writer = coordinator->writer<PlanOffer>(kCarrier);
-  writer.write({kCarrier, 1, {}});
-  writer.write({kCarrier, 2, {}});
+  writer.write({kCarrier, 1, 1, {}, {}});
+  writer.write({kCarrier, 2, 1, {}, {}});
   const auto agent = tests::open(options, {std::nullopt, kCarrier});
   ASSERT_TRUE(agent);
   agent->read<PlanOffer>([&](PlanOffer offer, LocalTime) { inbox.push(std::move(offer)); }, kCarrier);
@@ -116,7 +116,7 @@ TEST(HeldPlans, ReachARestartedCoordinator) {
   auto coordinator = tests::open_coordinator(options);
   const auto agent = tests::open(options, {std::nullopt, kCarrier});
   ASSERT_TRUE(coordinator && agent);
-  agent->writer<protocol::HeldPlans>(kCarrier).write({kCarrier, 7, {{{1, 2}, {}}}});
+  agent->writer<protocol::HeldPlans>(kCarrier).write({kCarrier, 7, {{{1, 2}, {}}}, {}});
   coordinator.reset();
   coordinator = tests::open(options, {dds::Hub::kCoordinator, std::nullopt});
   ASSERT_TRUE(coordinator);
@@ -162,7 +162,9 @@ TEST(Health, IsReportedOncePerPeriodWithEveryCount) {
   const auto node = tests::open(options, {std::nullopt, kCarrier});
   ASSERT_TRUE(ground && node);
   ground->read<protocol::Health>([&](protocol::Health health, LocalTime) { inbox.push(std::move(health)); });
-  node->writer<Beacon>().write({0, 0, {}, {0, {}, std::vector<Transition>(kMaxTransitions + 1)}});
+  Beacon unsendable;
+  unsendable.course.transitions.resize(kMaxTransitions + 1);
+  node->writer<Beacon>().write(unsendable);
 
   // The steps are half a period apart: the even ones are due, the odd ones are not. `overrun` tells them apart. Each is
   // less late than the one before: the worst since the last report is always the odd one's.
@@ -205,7 +207,7 @@ TEST(Node, CountsWhatCannotBeSentAndSendsNothing) {
   Beacon beacon;
   beacon.course.transitions.resize(kMaxTransitions + 1);
   node->writer<Beacon>().write(beacon);
-  node->writer<Command>().write({1, CommandKind::kRetune, std::string(kMaxMissionBytes + 1, 'm')});
+  node->writer<Command>().write({1, CommandKind::kRetune, 1.0, std::nullopt, std::string(kMaxMissionBytes + 1, 'm')});
   EXPECT_EQ(node->counters().unsendable, 2U);
 }
 
@@ -263,7 +265,7 @@ TEST(Node, CountsAStrangersBytesAndGoesOnListening) {
   EXPECT_TRUE(wait_for(
       inbox, [](const Beacon& b) { return b.sequence == 42; },
       [&] {
-        good.write({1, 42, {}, {}});
+        good.write({1, 42, {}, {}, std::nullopt, {}});
       }));
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -22,17 +23,21 @@ void visit_all(Visitor& visitor, Fields&... fields) {
 // clang-format off
 template <class V> void each_field(protocol::PlanNumber& m, V& v) { auto& [a, b] = m; visit_all(v, a, b); }
 template <class V> void each_field(protocol::TimedPlan& m, V& v) { auto& [a, b] = m; visit_all(v, a, b); }
-template <class V> void each_field(protocol::Transition& m, V& v) { auto& [a, b, c, d, e] = m; visit_all(v, a, b, c, d, e); }
-template <class V> void each_field(protocol::Course& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
-template <class V> void each_field(protocol::Beacon& m, V& v) { auto& [a, b, c, d, e] = m; visit_all(v, a, b, c, d, e); }
+template <class V> void each_field(protocol::Transition& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
+template <class V> void each_field(protocol::PlanMoment& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
+template <class V> void each_field(protocol::Ramp& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
+template <class V> void each_field(protocol::Pace& m, V& v) { auto& [a] = m; visit_all(v, a); }
+template <class V> void each_field(protocol::Wish& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
+template <class V> void each_field(protocol::Course& m, V& v) { auto& [a, b, c, d, e, f, g, h] = m; visit_all(v, a, b, c, d, e, f, g, h); }
+template <class V> void each_field(protocol::Beacon& m, V& v) { auto& [a, b, c, d, e, f] = m; visit_all(v, a, b, c, d, e, f); }
 template <class V> void each_field(mechanics::EdgePush& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
 template <class V> void each_field(mechanics::Harmonic& m, V& v) { auto& [a, b] = m; visit_all(v, a, b); }
 template <class V> void each_field(mechanics::Oscillation& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
 template <class V> void each_field(mechanics::LengthLaw& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
 template <class V> void each_field(mechanics::CarrierSlice& m, V& v) { auto& [a, b, c, d, e, f, g, h] = m; visit_all(v, a, b, c, d, e, f, g, h); }
 template <class V> void each_field(protocol::NumberedSlice& m, V& v) { auto& [a, b] = m; visit_all(v, a, b); }
-template <class V> void each_field(protocol::PlanOffer& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
-template <class V> void each_field(protocol::HeldPlans& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
+template <class V> void each_field(protocol::PlanOffer& m, V& v) { auto& [a, b, c, d, e] = m; visit_all(v, a, b, c, d, e); }
+template <class V> void each_field(protocol::HeldPlans& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
 template <class V> void each_field(protocol::TimeRequest& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
 template <class V> void each_field(protocol::TimeReply& m, V& v) { auto& [a, b, c, d, e, f, g] = m; visit_all(v, a, b, c, d, e, f, g); }
 template <class V> void each_field(protocol::DropCounts& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
@@ -46,9 +51,9 @@ template <class V> void each_field(protocol::Setpoint& m, V& v) {
 }
 template <class V> void each_field(protocol::CarrierState& m, V& v) { auto& [a, b, c, d, e, f, g, h, i] = m; visit_all(v, a, b, c, d, e, f, g, h, i); }
 template <class V> void each_field(protocol::LoadState& m, V& v) { auto& [a, b, c, d, e, f] = m; visit_all(v, a, b, c, d, e, f); }
-template <class V> void each_field(protocol::Command& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
+template <class V> void each_field(protocol::Command& m, V& v) { auto& [a, b, c, d, e] = m; visit_all(v, a, b, c, d, e); }
 template <class V> void each_field(protocol::CommandReply& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
-template <class V> void each_field(protocol::CoordinatorStatus& m, V& v) { auto& [a, b, c, d, e, f, g, h, i, j] = m; visit_all(v, a, b, c, d, e, f, g, h, i, j); }
+template <class V> void each_field(protocol::CoordinatorStatus& m, V& v) { auto& [a, b, c, d, e, f, g, h, i] = m; visit_all(v, a, b, c, d, e, f, g, h, i); }
 template <class V> void each_field(protocol::Health& m, V& v) { auto& [a, b, c, d, e, f, g] = m; visit_all(v, a, b, c, d, e, f, g); }
 // clang-format on
 
@@ -83,19 +88,23 @@ struct Randomiser {
   void operator()(Duration& field) { field = Duration(random_ns()); }
   void operator()(LocalTime& field) { field = LocalTime(Duration(random_ns())); }
   void operator()(SwarmTime& field) { field = SwarmTime(Duration(random_ns())); }
+  void operator()(PlanTime& field) { field = PlanTime(Duration(random_ns())); }
   void operator()(std::string& field) {
     const auto size = *rc::gen::weightedOneOf<std::size_t>(
         {{3, rc::gen::inRange<std::size_t>(0, text_bytes + 1)}, {1, rc::gen::just(text_bytes)}});
     field.assign(size, *rc::gen::inRange<char>('a', 'z'));
   }
-  void operator()(protocol::Stage& e) { e = *rc::gen::element(protocol::Stage::kProposed, protocol::Stage::kGo); }
+  void operator()(protocol::Wisher& e) {
+    using Wisher = protocol::Wisher;
+    e = *rc::gen::element(Wisher::kNobody, Wisher::kStart, Wisher::kPerson, Wisher::kSilence, Wisher::kEvidence);
+  }
   void operator()(protocol::AgentState& e) {
     using State = protocol::AgentState;
     e = *rc::gen::element(State::kWaiting, State::kReady, State::kFlying, State::kAlone);
   }
   void operator()(protocol::CommandKind& e) {
     using Kind = protocol::CommandKind;
-    e = *rc::gen::element(Kind::kEngage, Kind::kRelease, Kind::kFreeze, Kind::kRetune);
+    e = *rc::gen::element(Kind::kEngage, Kind::kRelease, Kind::kFreeze, Kind::kRetune, Kind::kPace);
   }
   void operator()(mechanics::LengthLaw::Kind& e) {
     using Kind = mechanics::LengthLaw::Kind;
@@ -104,10 +113,16 @@ struct Randomiser {
   template <class T>
   void operator()(std::vector<T>& field) {
     constexpr std::size_t kBound = std::is_same_v<T, protocol::Transition> ? protocol::kMaxTransitions
+                                   : std::is_same_v<T, protocol::Ramp>     ? protocol::kMaxRamps
                                    : std::is_same_v<T, CarrierId>          ? kMaxCarrierId
                                                                            : protocol::kMaxPlans;
     field.resize(*rc::gen::inRange<std::size_t>(0, kBound + 1));
     for (T& entry : field) (*this)(entry);
+  }
+  template <class T>
+  void operator()(std::optional<T>& field) {
+    field.reset();
+    if (*rc::gen::arbitrary<bool>()) (*this)(field.emplace());
   }
 
   static std::int64_t random_ns() {
@@ -134,11 +149,17 @@ struct Flattener {
   void operator()(Duration& field) { flatten_ns(field.count()); }
   void operator()(LocalTime& field) { flatten_ns(field.time_since_epoch().count()); }
   void operator()(SwarmTime& field) { flatten_ns(field.time_since_epoch().count()); }
+  void operator()(PlanTime& field) { flatten_ns(field.time_since_epoch().count()); }
   void operator()(std::string& field) { bits += std::to_string(field.size()) + ":" + field; }
   template <class T>
   void operator()(std::vector<T>& field) {
     bits += std::to_string(field.size()) + "#";
     for (T& entry : field) (*this)(entry);
+  }
+  template <class T>
+  void operator()(std::optional<T>& field) {
+    bits += field ? "+" : "-";
+    if (field) (*this)(*field);
   }
   void flatten_ns(std::int64_t ns) { (*this)(ns); }
 };

@@ -50,6 +50,17 @@ TEST(Check, JsonKeepsItsContract) {
   EXPECT_TRUE(json["carriers"][2].at("direction_cosine_min").is_null());    // fixed: projects on nothing
 }
 
+TEST(Check, TellsWhatTheMissionDoesInSilence) {
+  const Answer stops = gyre("check " + shipped("paper"));
+  EXPECT_NE(stops.output.find("silence            all stop together after 5 s\n"), std::string::npos) << stops.output;
+  const Answer flies = gyre("check " + shipped("paper-enduring"));
+  EXPECT_NE(flies.output.find("silence            all fly on, and the clock skew stays within its bound for "),
+            std::string::npos)
+      << flies.output;
+  EXPECT_TRUE(
+      Json::parse(gyre("check --json " + shipped("paper-enduring")).output).at("silence_stop_after_s").is_null());
+}
+
 TEST(Check, JsonOfARefusedMissionGivesRulesAndCarriers) {
   const Answer answer = gyre("check " + shipped("pair-level") + " --json");
   EXPECT_EQ(answer.exit_code, 1);
@@ -87,6 +98,16 @@ TEST(BadUsage, IsTwoWithAMessageAndNoOutput) {
       {"sample --count 1 " + shipped("paper"), "--count"},
       {"sample --count 1000000000000 " + shipped("paper"), "--count"},
       {"sample --count many " + shipped("paper"), "--count"},
+      {"pace", "PACE is required"},
+      {"pace 1.1", "PACE"},
+      {"pace -0.1", "-0.1"},
+      {"pace half", "PACE"},
+      {"pace nan", "PACE"},
+      {"pace 0.5 0.7", "0.7"},
+      {"release --phase", "--phase"},
+      {"release --phase 361", "--phase"},
+      {"release --phase north", "--phase"},
+      {"engage now", "now"},
   };
   for (const auto& bad : cases) {
     const Answer answer = gyre(bad.arguments);

@@ -9,10 +9,8 @@
 namespace gyre::ground {
 namespace {
 
-using protocol::Stage;
-
-constexpr double kSwarmAhead_s = 5000.0;                    // swarm time has nothing to do with this process's clock
-constexpr protocol::PlanNumber kRest{7, 9}, kMotion{5, 2};  // whatever they are called
+constexpr double kSwarmAhead_s = 5000.0;       // swarm time has nothing to do with this process's clock
+constexpr protocol::PlanNumber kMotion{5, 2};  // whatever it is called
 
 LocalTime local(double time_s) {
   return LocalTime(from_seconds(time_s));
@@ -21,16 +19,16 @@ SwarmTime swarm(double local_s) {
   return SwarmTime(from_seconds(local_s + kSwarmAhead_s));
 }
 
-protocol::Transition go(const protocol::PlanNumber& to, double start_s, double duration_s, std::uint64_t id = 1) {
-  return {id, {to, swarm(0.0)}, swarm(start_s), from_seconds(duration_s), Stage::kGo};
-}
-
 class FlightMonitorTest : public testing::Test {
  protected:
   FlightMonitor monitor{{1, 2, 5}, local(0.0)};
   protocol::Course course;
 
-  void SetUp() override { course.base = {kRest, swarm(0.0)}; }
+  void SetUp() override { course.base = {kMotion, PlanTime{}}; }
+
+  void ramp(double start_s, double duration_s, double target) {
+    course.pace = course.pace.with_ramp(swarm(start_s), from_seconds(duration_s), target);
+  }
 
   void beacon(double time_s) {
     protocol::Beacon beacon;
@@ -39,18 +37,17 @@ class FlightMonitorTest : public testing::Test {
     beacon.course = course;
     monitor.see(beacon, local(time_s));
   }
-  /// The coordinator's, while the mission in force has this motion.
+  /// The coordinator's, while this is the plan of the mission in force.
   void word(const protocol::PlanNumber& motion = kMotion, std::uint64_t term = 7) {
     protocol::CoordinatorStatus status;
     status.term = term;
-    status.rest = kRest;
-    status.motion = motion;
+    status.plan = motion;
     monitor.see(status);
   }
   void agent(CarrierId id, double time_s, bool ready = true) {
     protocol::AgentStatus status;
     status.carrier = id;
-    status.accepted = ready ? std::vector{kRest, kMotion} : std::vector{kRest};
+    status.accepted = ready ? std::vector{kMotion} : std::vector<protocol::PlanNumber>{};
     monitor.see(status, local(time_s));
   }
   void everybody(double time_s) {
@@ -69,7 +66,7 @@ TEST_F(FlightMonitorTest, GoesThroughAWholeFlight) {
   EXPECT_EQ(phase(0.5), "starting");  // no simulator yet
   monitor.see(protocol::CarrierState{}, local(0.6));
   agent(1, 0.6);
-  EXPECT_EQ(phase(0.6), "starting");  // and nobody knows yet which plan is the motion
+  EXPECT_EQ(phase(0.6), "starting");  // and nobody knows yet which plan is the mission's
   EXPECT_EQ(monitor.agents_ready(), 0);
   word();
   EXPECT_EQ(phase(0.6), "matching");
@@ -81,7 +78,7 @@ TEST_F(FlightMonitorTest, GoesThroughAWholeFlight) {
   EXPECT_EQ(phase(1.0), "engaging");
   EXPECT_FALSE(monitor.under_way(local(1.0)));
 
-  course.transitions = {go(kMotion, 2.0, 4.0)};
+  ramp(2.0, 4.0, 1.0);
   everybody(1.5);
   EXPECT_FALSE(monitor.under_way(local(1.9)));
   EXPECT_TRUE(monitor.under_way(local(2.1)));
@@ -90,60 +87,118 @@ TEST_F(FlightMonitorTest, GoesThroughAWholeFlight) {
   EXPECT_EQ(phase(6.1), "flying");  // even when no beacon says so
   EXPECT_NEAR(seconds(monitor.flown(local(16.0))), 10.0, 1e-9);
 
-  course.base.number = kMotion;
-  course.transitions.clear();
+  course.pace.settle(swarm(7.0));
   everybody(7.0);
   EXPECT_EQ(phase(7.0), "flying");
-  course.transitions = {go(kRest, 20.0, 4.0, 2)};
+  ramp(20.0, 3.0, 0.0);
   everybody(19.0);
   EXPECT_EQ(phase(19.9), "flying");
   EXPECT_EQ(phase(20.1), "releasing");
-  EXPECT_NEAR(seconds(monitor.flown(local(23.0))), 14.0, 1e-9);
-  EXPECT_TRUE(monitor.under_way(local(23.9)));
-  EXPECT_FALSE(monitor.under_way(local(24.1)));
-  EXPECT_EQ(phase(24.1), "releasing");
-  EXPECT_EQ(monitor.transition_duration(), from_seconds(4.0));
+  EXPECT_NEAR(seconds(monitor.flown(local(22.0))), 14.0, 1e-9);
+  EXPECT_TRUE(monitor.under_way(local(22.9)));
+  EXPECT_FALSE(monitor.under_way(local(23.1)));
+  EXPECT_EQ(phase(23.1), "releasing");
+  EXPECT_EQ(monitor.transition_duration(), from_seconds(3.0));
 }
 
-TEST_F(FlightMonitorTest, AProposedTransitionIsNotYetATransition) {
-  course.transitions = {go(kMotion, 2.0, 4.0)};
-  course.transitions[0].stage = Stage::kProposed;
+TEST_F(FlightMonitorTest, WhatIsProposedIsNotYetAgreed) {
+  protocol::Beacon beacon;
+  beacon.term = 1;
+  beacon.swarm_time = swarm(1.0);
+  beacon.course = course;
+  beacon.proposal = course;
+  beacon.proposal->pace = course.pace.with_ramp(swarm(2.0), from_seconds(4.0), 1.0);
   everybody(1.0);
+  monitor.see(beacon, local(1.0));
   EXPECT_EQ(phase(3.0), "engaging");
   EXPECT_FALSE(monitor.under_way(local(3.0)));
   EXPECT_EQ(monitor.flown(local(9.0)), Duration::zero());
 }
 
 TEST_F(FlightMonitorTest, TurningBackHalfWayNeverFlew) {
-  course.transitions = {go(kMotion, 2.0, 4.0), go(kRest, 3.0, 4.0, 2)};
+  ramp(2.0, 4.0, 1.0);
+  everybody(2.5);
+  ramp(3.0, 4.0, 0.0);
   everybody(3.5);
   EXPECT_EQ(phase(3.5), "releasing");
   EXPECT_EQ(monitor.flown(local(9.0)), Duration::zero());
 }
 
-TEST_F(FlightMonitorTest, APlanOfItsOwnIsADeviation) {
-  course.base.number = kMotion;
-  course.transitions = {go({7, 10}, 10.0, 4.0, 2)};
-  everybody(9.5);
+TEST_F(FlightMonitorTest, AnotherPaceIsFlownOnAndEndsNothing) {
+  everybody(1.0);
+  ramp(2.0, 4.0, 1.0);
+  everybody(7.0);
+  ramp(10.0, 2.0, 0.5);
+  everybody(9.0);
   EXPECT_EQ(phase(9.9), "flying");
-  EXPECT_EQ(phase(10.1), "deviated");
-  EXPECT_NE(complaint(10.1).find("plan of its own"), std::string::npos);
+  EXPECT_EQ(phase(10.1), "slowed");
+  EXPECT_EQ(phase(12.1), "slowed");
+  EXPECT_TRUE(monitor.under_way(local(12.1)));
+  EXPECT_NEAR(seconds(monitor.flown(local(15.0))), 4.0, 1e-9) << "at full pace";
+  course.pace.settle(swarm(16.0));
+  ramp(17.0, 2.0, 1.0);
+  everybody(16.0);
+  EXPECT_EQ(phase(16.5), "slowed") << "a change that is only announced has not begun, and nothing rests";
+  EXPECT_TRUE(monitor.under_way(local(16.5)));
+  EXPECT_EQ(phase(17.5), "engaging");
+  EXPECT_EQ(phase(19.1), "flying");
 }
 
-TEST_F(FlightMonitorTest, ARetuneIsADeviationThoughTheCoordinatorCallsItTheMotion) {
+TEST_F(FlightMonitorTest, WhatOvertakesARampIsToldOfWhenItBegins) {
+  ramp(2.0, 4.0, 1.0);
+  everybody(2.5);
+  ramp(4.0, 2.0, 0.0);
+  everybody(3.0);
+  EXPECT_EQ(phase(3.5), "engaging");
+  EXPECT_TRUE(monitor.under_way(local(3.5)));
+  EXPECT_EQ(phase(4.5), "releasing");
+}
+
+TEST_F(FlightMonitorTest, APlanThatIsNotTheMissionsIsADeviation) {
+  ramp(2.0, 4.0, 1.0);
+  everybody(7.0);
+  EXPECT_EQ(phase(9.5), "flying");
+  course.transitions = {{{{7, 10}, PlanTime{}}, PlanTime(from_seconds(9.0)), from_seconds(4.0)}};
+  everybody(9.5);
+  EXPECT_EQ(phase(10.1), "deviated");
+  EXPECT_NE(complaint(10.1).find("left the motion by itself"), std::string::npos);
+}
+
+TEST_F(FlightMonitorTest, AStopBySilenceIsADeviationAtRestToo) {
+  ramp(2.0, 4.0, 1.0);
+  everybody(7.0);
+  ramp(8.0, 2.0, 0.0);
+  course.wish = {0.0, false, protocol::Wisher::kSilence};
+  everybody(9.0);
+  EXPECT_EQ(phase(9.5), "deviated");
+  EXPECT_EQ(phase(11.5), "deviated");
+  EXPECT_TRUE(monitor.under_way(local(11.5)));
+}
+
+TEST_F(FlightMonitorTest, AtTheEndOfALeaseTheSwarmStopsThoughNoBeaconSaysSo) {
+  ramp(2.0, 4.0, 1.0);
+  course.lease = swarm(12.0);
+  course.stopping = from_seconds(2.0);
+  everybody(7.0);
+  EXPECT_EQ(phase(11.9), "flying");
+  EXPECT_EQ(phase(12.1), "releasing");
+  EXPECT_TRUE(monitor.under_way(local(13.9)));
+  EXPECT_FALSE(monitor.under_way(local(14.1)));
+}
+
+TEST_F(FlightMonitorTest, ARetuneIsADeviationThoughTheCoordinatorCallsItTheMissions) {
   constexpr protocol::PlanNumber kRetuned{7, 11};
-  course.base.number = kMotion;
+  ramp(2.0, 4.0, 1.0);
   everybody(9.0);
   word(kRetuned);
   EXPECT_EQ(phase(9.5), "flying");
-  course.transitions = {go(kRetuned, 10.0, 4.0, 2)};
+  course.transitions = {{{kRetuned, PlanTime{}}, PlanTime(from_seconds(9.0)), from_seconds(4.0)}};
   everybody(9.5);
-  EXPECT_EQ(phase(9.9), "flying");
   EXPECT_EQ(phase(10.1), "deviated");
 }
 
-TEST_F(FlightMonitorTest, ACoordinatorThatTakesOverAndKnowsThePlansAgainChangesNothing) {
-  course.transitions = {go(kMotion, 2.0, 4.0)};
+TEST_F(FlightMonitorTest, ACoordinatorThatTakesOverAndKnowsThePlanAgainChangesNothing) {
+  ramp(2.0, 4.0, 1.0);
   everybody(5.0);
   word(kMotion, 8);
   everybody(7.0);
@@ -152,7 +207,7 @@ TEST_F(FlightMonitorTest, ACoordinatorThatTakesOverAndKnowsThePlansAgainChangesN
 }
 
 TEST_F(FlightMonitorTest, WhatIsUnderWayIsKnownWhenTheCoordinatorHasTold) {
-  course.transitions = {go(kMotion, 2.0, 4.0)};
+  ramp(2.0, 4.0, 1.0);
   beacon(1.5);
   monitor.see(protocol::CarrierState{}, local(1.5));
   EXPECT_EQ(phase(3.0), "starting");
@@ -169,7 +224,7 @@ TEST_F(FlightMonitorTest, NamesWhoDidNotComeUp) {
   EXPECT_EQ(complaint(19.0), "none");
   EXPECT_EQ(complaint(21.0), "the coordinator was not heard within 20 s");
   beacon(21.0);
-  EXPECT_EQ(complaint(21.0), "the coordinator did not tell which plan is which within 20 s");
+  EXPECT_EQ(complaint(21.0), "the coordinator did not tell which plan is the mission's within 20 s");
   word();
   EXPECT_EQ(complaint(21.0), "the simulator was not heard within 20 s");
   monitor.see(protocol::CarrierState{}, local(21.0));
@@ -196,7 +251,7 @@ TEST_F(FlightMonitorTest, AMotionThatNeverBeginsIsToldOf) {
 }
 
 TEST_F(FlightMonitorTest, SilenceIsNamed) {
-  course.transitions = {go(kMotion, 2.0, 4.0)};
+  ramp(2.0, 4.0, 1.0);
   everybody(7.0);
   EXPECT_EQ(complaint(11.0), "none");
   EXPECT_EQ(complaint(13.0), "the coordinator was silent for more than 5 s");

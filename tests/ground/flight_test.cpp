@@ -6,8 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "common/mechanics/rest_plan.hpp"
-#include "common/mechanics/transition.hpp"
+#include "common/mechanics/reference.hpp"
 #include "common/mission/mission.hpp"
 #include "common/protocol/course.hpp"
 #include "ground/flight/core/flight_certificate.hpp"
@@ -19,10 +18,8 @@
 namespace gyre::ground {
 namespace {
 
-using protocol::Stage;
-
-constexpr double kTransition_s = 10.0;
-constexpr protocol::PlanNumber kRest{7, 9}, kMotion{5, 2};  // whatever they are called
+constexpr double kRamp_s = 10.0;
+constexpr protocol::PlanNumber kMotion{5, 2};  // whatever it is called
 
 mission::Mission paper() {
   const auto mission = mission::read_mission_file(std::string(GYRE_SOURCE_DIR) + "/deploy/missions/paper.textproto");
@@ -34,12 +31,12 @@ SwarmTime at(double time_s) {
   return SwarmTime(from_seconds(time_s));
 }
 
-/// Rest, and on it the transition to the motion at 5 s.
+/// At rest, and from 5 s on to full pace.
 protocol::Course engaging() {
   protocol::Course course;
   course.revision = 3;
-  course.base = {kRest, at(0.0)};
-  course.transitions = {{1, {kMotion, at(5.0)}, at(5.0), from_seconds(kTransition_s), Stage::kGo}};
+  course.base = {kMotion, PlanTime{}};
+  course.pace = course.pace.with_ramp(at(5.0), from_seconds(kRamp_s), 1.0);
   return course;
 }
 
@@ -47,42 +44,35 @@ protocol::Course engaging() {
 class PerfectFlight {
  public:
   explicit PerfectFlight(const mission::Mission& mission)
-      : mission_(mission),
-        rest_(mechanics::slices(mechanics::rest_plan(mission.plan))),
-        motion_(mechanics::slices(mission.plan)),
-        certificate(mission.plan),
-        record(mission.plan) {
+      : mission_(mission), motion_(mechanics::slices(mission.plan)), certificate(mission.plan), record(mission.plan) {
     certificate.see(word(kMotion));
   }
 
   /// The coordinator's, while the mission in force has this motion.
   static protocol::CoordinatorStatus word(const protocol::PlanNumber& motion) {
     protocol::CoordinatorStatus status;
-    status.rest = kRest;
-    status.motion = motion;
+    status.plan = motion;
     return status;
   }
 
   void fly(const protocol::Course& course, double begin_s, double end_s) {
     certificate.include(course);
     for (double t = begin_s; t < end_s; t += 0.05) {
-      for (std::size_t i = 0; i < rest_.size(); ++i) record.see(state(course, i, t), settled(course, t));
+      for (std::size_t i = 0; i < motion_.size(); ++i) record.see(state(course, i, t), at_full_pace(course, t));
       record.see(load(t), LocalTime(from_seconds(t)));
     }
   }
 
   [[nodiscard]] protocol::CarrierState state(const protocol::Course& course, std::size_t i, double t) const {
-    const auto layers = protocol::layers(course, SwarmTime{}, [&](const protocol::PlanNumber& number) {
-      return number == kRest ? &rest_[i] : &motion_[i];
-    });
-    const mechanics::Reference r = mechanics::evaluate_course(layers.data(), layers.size(), t);
+    const protocol::PlanMoment moment = course.moment(at(t));
+    const mechanics::Reference r = mechanics::evaluate(motion_[i], seconds(moment.at.time_since_epoch()));
     protocol::CarrierState state;
-    state.carrier = rest_[i].id;
+    state.carrier = motion_[i].id;
     state.position_w_m = r.position_w_m.value;
-    state.velocity_w_m_s = r.position_w_m.first;
+    state.velocity_w_m_s = moment.pace * r.position_w_m.first;
     state.tension_n = r.tension_n.value;
     state.cable_length_m = r.length_m.value;
-    state.winch_rate_m_s = r.length_m.first;
+    state.winch_rate_m_s = moment.pace * r.length_m.first;
     return state;
   }
 
@@ -97,14 +87,9 @@ class PerfectFlight {
   [[nodiscard]] FlightReport report() const { return judge_flight(mission_, certificate, record, 60.0); }
 
  private:
-  static bool settled(const protocol::Course& course, double t) {
-    protocol::Course now = course;
-    protocol::settle(now, at(t));
-    return now.base.number == kMotion && !protocol::in_transition(now, at(t));
-  }
+  static bool at_full_pace(const protocol::Course& course, double t) { return course.moment(at(t)).pace == 1.0; }
 
   const mission::Mission& mission_;
-  std::vector<mechanics::CarrierSlice> rest_;
   std::vector<mechanics::CarrierSlice> motion_;
 
  public:
@@ -155,24 +140,24 @@ TEST_F(FlightTest, EveryFigureIsJudged) {
   EXPECT_EQ(with([](auto& s) { s.position_w_m.z() += 0.1; }).find("carrier 2: altitude"), 0U);
 }
 
-TEST_F(FlightTest, StandingStillIsForTransitionsOnly) {
+TEST_F(FlightTest, StandingStillIsForTheWayOnly) {
   protocol::CarrierState still = flight.state(engaging(), 0, 40.0);
   still.velocity_w_m_s.setZero();
   flight.record.see(still, false);
   EXPECT_EQ(violations(), "");
 }
 
-TEST_F(FlightTest, ATransitionIsJudgedToo) {
+TEST_F(FlightTest, TheWayToFullPaceIsJudgedToo) {
   protocol::CarrierState state = flight.state(engaging(), 0, 9.0);
   state.tension_n = 30.0;
   flight.record.see(state, false);
-  EXPECT_EQ(violations().find("carrier 1: tension 30 N in a transition"), 0U) << violations();
+  EXPECT_EQ(violations().find("carrier 1: tension 30 N on the way"), 0U) << violations();
   EXPECT_FALSE(flight.report().carriers[0].tension_n.inside);
 }
 
 TEST_F(FlightTest, AReleaseHalfWayThroughTheEngagementIsEnclosed) {
   protocol::Course course = engaging();
-  course.transitions.push_back({2, {kRest, at(0.0)}, at(10.0), from_seconds(kTransition_s), Stage::kGo});
+  course.pace = course.pace.with_ramp(at(10.0), from_seconds(kRamp_s), 0.0);
   PerfectFlight other(mission);
   other.fly(engaging(), 0.0, 10.0);
   other.fly(course, 10.0, 25.0);
@@ -184,23 +169,26 @@ TEST_F(FlightTest, AReleaseHalfWayThroughTheEngagementIsEnclosed) {
   EXPECT_TRUE(other.report().good());
 }
 
-TEST_F(FlightTest, TheTransitionWidensTheHullOnlyWhereItIsGo) {
-  const auto lowest = [](const FlightCertificate& certificate) {
-    return certificate.bounds()[0].whole.length_m.span();
-  };
-  FlightCertificate without(mission.plan);
-  without.see(PerfectFlight::word(kMotion));
-  protocol::Course proposed = engaging();
-  proposed.transitions[0].stage = Stage::kProposed;
-  without.include(proposed);
-  EXPECT_LE(lowest(without), lowest(flight.certificate));
-  EXPECT_TRUE(without.knows_all_plans());
+TEST_F(FlightTest, AtLowerPacesPlacesAreTheSameAndSpeedsReachDownToRest) {
+  for (const auto& carrier : flight.certificate.bounds()) {
+    EXPECT_EQ(carrier.whole.length_m.span(), carrier.motion.length_m.span());
+    EXPECT_EQ(carrier.whole.tension_n.span(), carrier.motion.tension_n.span());
+    EXPECT_EQ(carrier.whole.speed_m_s.min, 0.0);
+    EXPECT_EQ(carrier.whole.speed_m_s.max, carrier.motion.speed_m_s.max);
+  }
+}
+
+TEST_F(FlightTest, TooFastAPaceIsOutside) {
+  protocol::CarrierState hasty = flight.state(engaging(), 0, 9.0);
+  hasty.velocity_w_m_s *= 1.2 * flight.certificate.bounds()[0].motion.speed_m_s.max / hasty.velocity_w_m_s.norm();
+  flight.record.see(hasty, false);
+  EXPECT_NE(violations().find("m/s on the way"), std::string::npos) << violations();
 }
 
 TEST_F(FlightTest, APlanOfNobodysMissionCannotBeJudged) {
-  protocol::Course frozen = engaging();
-  frozen.transitions[0].to.number.revision = 3;
-  flight.certificate.include(frozen);
+  protocol::Course strange = engaging();
+  strange.transitions = {{{{7, 3}, PlanTime{}}, PlanTime{}, from_seconds(kRamp_s)}};
+  flight.certificate.include(strange);
   EXPECT_EQ(violations().find("the swarm went to a plan that is not of this mission"), 0U);
 }
 
@@ -210,20 +198,18 @@ TEST_F(FlightTest, AnothersMotionCannotBeJudgedWhateverTheCoordinatorCallsIt) {
   flight.certificate.include(engaging());
   EXPECT_TRUE(flight.report().good()) << violations();
   protocol::Course retuned = engaging();
-  retuned.transitions[0].to.number = kRetuned;
+  retuned.base.number = kRetuned;
   flight.certificate.include(retuned);
   EXPECT_EQ(violations().find("the swarm went to a plan that is not of this mission"), 0U);
 }
 
 TEST_F(FlightTest, WhatIsFlownBeforeItIsKnownWhatItIsIsNotHeldAgainstTheFlight) {
   FlightCertificate certificate(mission.plan);
-  const double motion_m = certificate.bounds()[0].whole.length_m.span();
   certificate.include(engaging());
   EXPECT_TRUE(certificate.knows_all_plans());
   certificate.see(PerfectFlight::word(kMotion));
   certificate.include(engaging());
   EXPECT_TRUE(certificate.knows_all_plans());
-  EXPECT_GE(certificate.bounds()[0].whole.length_m.span(), motion_m);
 }
 
 TEST_F(FlightTest, TheLoadIsHeldToTheMissionsTolerance) {

@@ -18,6 +18,8 @@ using ground::certificate_json;
 using ground::certificate_table;
 using ground::motion_csv;
 
+constexpr protocol::Silence kStop{std::chrono::seconds(7)};
+constexpr protocol::Silence kFlyOn{std::nullopt};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 mechanics::Certificate one_bad_carrier() {
@@ -48,9 +50,9 @@ std::string line_of(const std::string& table, const std::string& start) {
 
 TEST(Table, VerdictFirst) {
   mechanics::Certificate certificate = one_bad_carrier();
-  EXPECT_EQ(certificate_table("m", {}, certificate).rfind("m: REFUSED, 1 rule broken\n", 0), 0u);
+  EXPECT_EQ(certificate_table("m", {}, certificate, kStop).rfind("m: REFUSED, 1 rule broken\n", 0), 0u);
   certificate.reasons.clear();
-  EXPECT_EQ(certificate_table("m", {}, certificate).rfind("m: admissible\n", 0), 0u);
+  EXPECT_EQ(certificate_table("m", {}, certificate, kStop).rfind("m: admissible\n", 0), 0u);
 }
 
 TEST(Table, FiguresOutsideTheirLimitsAreMarked) {
@@ -60,7 +62,7 @@ TEST(Table, FiguresOutsideTheirLimitsAreMarked) {
   limits.winch_rate_max_m_s = 0.8;
   limits.acceleration_max_m_s2 = 5.0;
   limits.vertical_cosine_min = 0.6;
-  const std::string table = certificate_table("m", limits, one_bad_carrier());
+  const std::string table = certificate_table("m", limits, one_bad_carrier(), kStop);
   const std::string row = line_of(table, "carrier 7");
   EXPECT_NE(row.find("1.25 .. 3.5 !"), std::string::npos) << table;
   EXPECT_NE(row.find("2 .. unbounded "), std::string::npos) << table;
@@ -75,28 +77,49 @@ TEST(Table, FiguresOutsideTheirLimitsAreMarked) {
 }
 
 TEST(Table, EveryRuleIsNamedWithItsText) {
-  const std::string table = certificate_table("m", {}, one_bad_carrier());
+  const std::string table = certificate_table("m", {}, one_bad_carrier(), kStop);
   EXPECT_NE(table.find("- direction cosine: carrier 7: word"), std::string::npos) << table;
 }
 
 TEST(Table, WhatWasNotComputedIsADash) {
   mechanics::Certificate certificate = one_bad_carrier();
   for (const char* line : {"  separation ", "  load stiffness ", "  clock skew "}) {
-    const std::string dash = line_of(certificate_table("m", {}, certificate), line);
+    const std::string dash = line_of(certificate_table("m", {}, certificate, kStop), line);
     EXPECT_EQ(dash.find_first_not_of(' ', std::string(line).size()), dash.size() - 1) << dash;
     EXPECT_EQ(dash.back(), '-') << dash;
   }
   certificate.separation = {2.5, 3, 4};
   certificate.stiffness_min_1_s2 = 1.5;
   certificate.skew = mechanics::SkewBudget{1.0, 2.0, 0.5, 9.0};
-  const std::string table = certificate_table("m", {}, certificate);
+  const std::string table = certificate_table("m", {}, certificate, kStop);
   EXPECT_NE(line_of(table, "  separation ").find("2.5 m, carriers 3 and 4"), std::string::npos) << table;
   EXPECT_NE(line_of(table, "  load stiffness ").find("1.5 1/s^2"), std::string::npos) << table;
   EXPECT_NE(line_of(table, "  clock skew ").find("up to 500 ms"), std::string::npos) << table;
 }
 
+TEST(Table, ToldWhatSilenceDoesAndHowLongFlyingOnIsGood) {
+  mechanics::Certificate certificate = one_bad_carrier();
+  const auto line = [&](const protocol::Silence& silence) {
+    return line_of(certificate_table("m", {}, certificate, silence), "  silence ");
+  };
+  certificate.skew = mechanics::SkewBudget{1.0, 2.0, 0.5, 90.0};
+  EXPECT_EQ(line(kStop), "  silence            all stop together after 7 s");
+  EXPECT_EQ(
+      line(kFlyOn),
+      "  silence            all fly on, and the clock skew stays within its bound for 90 s with clocks 20 ppm apart");
+  certificate.skew->holdover_s = kInfinity;
+  EXPECT_EQ(line(kFlyOn), "  silence            all fly on");
+  certificate.skew.reset();
+  EXPECT_EQ(line(kFlyOn), "  silence            all fly on");
+}
+
+TEST(Json, TellsWhenAllStop) {
+  EXPECT_EQ(certificate_json("m", one_bad_carrier(), kStop).at("silence_stop_after_s"), 7.0);
+  EXPECT_TRUE(certificate_json("m", one_bad_carrier(), kFlyOn).at("silence_stop_after_s").is_null());
+}
+
 TEST(Json, WhatIsInfiniteOrAbsentIsNull) {
-  const nlohmann::ordered_json json = certificate_json("m", one_bad_carrier());
+  const nlohmann::ordered_json json = certificate_json("m", one_bad_carrier(), kStop);
   EXPECT_EQ(json.at("verdict"), "refused");
   EXPECT_EQ(json.at("reasons")[0].at("rule"), "direction cosine");
   EXPECT_EQ(json.at("reasons")[0].at("carrier"), 7);

@@ -14,7 +14,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr protocol::PlanNumber kRest{0x10000, 1}, kMotion{0x10000, 2}, kFrozen{0x10000, 3};
+constexpr protocol::PlanNumber kMotion{0x10000, 2}, kOther{0x10000, 3};
 constexpr double kGravity = 10.0;
 
 mission::Mission mission() {
@@ -34,10 +34,13 @@ mission::Mission mission() {
 class WatchTest : public testing::Test {
  protected:
   WatchTest() {
-    beacon_.term = status_.term = kRest.term;
+    beacon_.term = status_.term = kMotion.term;
+    beacon_.swarm_time = kNow;
     beacon_.course.base.number = kMotion;
-    status_.rest = kRest;
-    status_.motion = kMotion;
+    beacon_.course.pace = at_pace(1.0);
+    beacon_.course.wish = {1.0, false, protocol::Wisher::kPerson};
+    beacon_.course.lease = kNow + seconds(5);
+    status_.plan = kMotion;
     status_.skew_budget = milliseconds(10);
     status_.skew = milliseconds(1);
     load_.position_w_m = {1.0, 2.0, 3.0};
@@ -55,6 +58,11 @@ class WatchTest : public testing::Test {
   [[nodiscard]] Account account() { return watch_.account(now_); }
   [[nodiscard]] std::string complaint() { return account().complaint; }
 
+  static protocol::Pace at_pace(double pace) {
+    return {{{SwarmTime{}, Duration{}, {PlanTime{}, pace, 0.0, 0.0}, pace}}};
+  }
+
+  static constexpr SwarmTime kNow{seconds(5000)};
   LocalTime now_{seconds(100)};
   SwarmWatch watch_{mission(), now_};
   protocol::Beacon beacon_;
@@ -96,8 +104,19 @@ TEST_F(WatchTest, SaysWhatIsWrong) {
   using Beacon = protocol::Beacon;
   EXPECT_EQ(with([](Status& s, Beacon&) { s.silent = {3}; }), "carrier 3 is silent");
   EXPECT_EQ(with([](Status&, Beacon& b) { b.course.transitions.emplace_back(); }), "a transition is under way");
-  EXPECT_EQ(with([](Status&, Beacon& b) { b.course.base.number = kFrozen; }),
-            "the load is held by neither the motion nor the rest plan");
+  EXPECT_EQ(with([](Status&, Beacon& b) { b.course.base.number = kOther; }),
+            "the load is not held by the mission's plan");
+  EXPECT_EQ(
+      with([](Status&, Beacon& b) { b.course.pace = at_pace(1.0).with_ramp(kNow + seconds(1), seconds(2), 1.0); }),
+      "the pace is changing");
+  EXPECT_EQ(with([](Status&, Beacon& b) { b.course.lease = kNow - seconds(1); }), "the pace is changing");
+  EXPECT_EQ(with([](Status&, Beacon& b) { b.proposal = b.course; }), "a change is proposed");
+  EXPECT_EQ(with([](Status&, Beacon& b) { b.course.wish.pace = 0.0; }), "rest is wished, and not agreed yet");
+  EXPECT_EQ(with([](Status&, Beacon& b) {
+              b.course.pace = at_pace(0.0);
+              b.course.wish = {0.0, false, protocol::Wisher::kSilence};
+            }),
+            "all have stopped, because somebody fell silent");
   EXPECT_EQ(with([](Status& s, Beacon&) { s.skew = milliseconds(11); }),
             "the clocks may disagree by 11 ms, the plan in force allows 10 ms");
   EXPECT_EQ(with([](Status& s, Beacon&) { s.skew_budget = Duration::zero(), s.skew = seconds(9); }), "");
@@ -112,6 +131,17 @@ TEST_F(WatchTest, SaysWhatIsWrong) {
   load_.orientation_w_b = Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitX());
   see_load();
   EXPECT_EQ(complaint(), "the load is turned by 0.573 degrees, the mission allows 0.1");
+}
+
+TEST_F(WatchTest, IsCalmAtEveryPaceThatWasWished) {
+  for (const auto& [pace, words] : {std::pair{0.0, "rest"}, {0.5, "motion at 50 %"}, {1.0, "motion"}}) {
+    beacon_.course.pace = at_pace(pace);
+    beacon_.course.wish.pace = pace;
+    hear_all();
+    const Account a = account();
+    EXPECT_TRUE(a.calm()) << a.complaint;
+    EXPECT_EQ(a.course, words);
+  }
 }
 
 TEST_F(WatchTest, ALoadThatIsNowhereIsNotCalm) {
@@ -161,7 +191,7 @@ TEST_F(WatchTest, BelievesTheNewerOfTwoCoordinatorsAndALaterOneWhenThatIsSilent)
   hear_all();
   auto older = beacon_;
   older.term = 7;
-  older.course.base.number = kFrozen;
+  older.course.base.number = kOther;
   watch_.see(older, now_);
   EXPECT_TRUE(account().calm()) << "one that is being fenced off";
   now_ += seconds(4);

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "common/mechanics/certificate.hpp"
-#include "common/mechanics/rest_plan.hpp"
 #include "common/mechanics/transition.hpp"
 #include "tests/mechanics/plans.hpp"
 

@@ -8,10 +8,10 @@
 #include <cmath>
 
 #include "common/mechanics/certificate.hpp"
-#include "common/mechanics/frozen_slice.hpp"
 #include "common/mechanics/grasp.hpp"
 #include "common/mechanics/skew.hpp"
 #include "common/mechanics/stiffness.hpp"
+#include "common/mechanics/transition.hpp"
 #include "tests/mechanics/plans.hpp"
 #include "tests/mechanics/track.hpp"
 
@@ -83,14 +83,14 @@ TEST(Clocks, one_clock_off_displaces_the_papers_load_as_measured_in_simulated_dy
 }
 
 TEST(Clocks, a_plan_that_does_not_move_has_all_the_time_there_is) {
-  const Certificate certificate = certify(static_plan(paper_plan(), 0.3), {true, true, false});
+  const Certificate certificate = certify(still_plan(paper_plan(), 0.3), {true, true, false});
   EXPECT_EQ(certificate.skew->residual_n_per_s, 0.0);
   EXPECT_EQ(certificate.skew->budget_s, std::numeric_limits<double>::infinity());
 }
 
-// ------------------------------------------------------------------------------------------------------------ freeze
+// ------------------------------------------------------------------------------------------------------------- stuck
 
-TEST(Freeze, one_carrier_alone_leaves_more_than_the_papers_whole_weight_unbalanced) {
+TEST(Stuck, one_carrier_alone_leaves_more_than_the_papers_whole_weight_unbalanced) {
   const Plan plan = paper_plan();
   const std::vector<CarrierSlice> all = slices(plan);
   const auto worst = [&](std::size_t stuck) {
@@ -109,42 +109,22 @@ TEST(Freeze, one_carrier_alone_leaves_more_than_the_papers_whole_weight_unbalanc
   for (std::size_t stuck = 0; stuck < all.size(); ++stuck) EXPECT_GT(worst(stuck), 1.0);
 }
 
-RC_GTEST_PROP(Freeze, the_static_plan_includes_the_stuck_carrier_exactly, ()) {
-  const Plan plan = random_plan();
-  const double t_s = real(0.0, 1.0) * period_s(plan);
-  const Plan still = static_plan(plan, plan.cycle.rate_rad_s * t_s);
-  const std::vector<CarrierSlice> moving = slices(plan);
-  const std::vector<CarrierSlice> held = slices(still);
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    const Reference stuck = evaluate(moving[i], t_s);
-    const Reference place = evaluate(held[i], real(-1e3, 1e3));
-    RC_ASSERT((place.position_w_m.value - stuck.position_w_m.value).norm() < 1e-11);
-    RC_ASSERT((place.force_w_n.value - stuck.force_w_n.value).norm() < 1e-11);
-    RC_ASSERT(place.position_w_m.first.norm() == 0.0);
-    RC_ASSERT(place.position_w_m.second.norm() == 0.0);
-  }
-  const std::vector<double> none(held.size(), 0.0);
-  RC_ASSERT(residual(still, held, 0.0, none).norm() < 1e-12 * plan.load.mass_kg * plan.gravity_m_s2);
-}
-
-RC_GTEST_PROP(Freeze, frozen_slices_hold_the_load_as_the_course_did_also_within_a_transition, ()) {
+// So it is the clock that has to stop, everybody's: whatever was under way, and in whatever transition.
+RC_GTEST_PROP(Stuck, all_that_stand_still_at_one_plan_time_hold_the_load, ()) {
   const Plan below = random_plan();
   const Plan above = random_motion(below);
   const std::vector<CarrierSlice> a = slices(below);
   const std::vector<CarrierSlice> b = slices(above);
   const double t_s = real(-1.0, 6.0);
-  const bool single = whole(0, 1) == 0;
   std::vector<Eigen::Vector3d> forces;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    std::vector<TimedLayer> layers{{&a[i], 0.5, 0.0, 0.0}, {&b[i], -0.5, 0.0, 5.0}};
-    if (single) layers.pop_back();
-    const CarrierSlice frozen = frozen_slice(layers, t_s);
-    const Reference course = evaluate_course(layers.data(), layers.size(), t_s);
-    const Reference place = evaluate(frozen, real(-1e3, 1e3));
-    RC_ASSERT((place.position_w_m.value - course.position_w_m.value).norm() < 1e-11);
-    RC_ASSERT(place.position_w_m.first.norm() == 0.0);
-    RC_ASSERT(!single || frozen.law.is_projection() == a[i].law.is_projection());
-    forces.push_back(place.force_w_n.value);
+    const std::vector<TimedLayer> layers{{&a[i], 0.5, 0.0, 0.0}, {&b[i], -0.5, 0.0, 5.0}};
+    const Reference moving = evaluate_course(layers.data(), layers.size(), t_s);
+    const TaylorVector<double> stands = paced(moving.position_w_m, 0.0, 0.0);
+    RC_ASSERT(stands.value == moving.position_w_m.value);
+    RC_ASSERT(stands.first.norm() == 0.0);
+    RC_ASSERT(stands.second.norm() == 0.0);
+    forces.push_back(paced(moving.force_w_n, 0.0, 0.0).value);
   }
   const Vector6d weight = holding_wrench(below.load.mass_kg, below.gravity_m_s2);
   RC_ASSERT((wrench(below, forces) - weight).norm() < 1e-12 * weight.norm());

@@ -314,7 +314,7 @@ TEST(LimitsOfAPlan, a_cable_may_point_down_as_steeply_as_up_and_not_turn_over) {
 }
 
 TEST(LimitsOfAPlan, a_plan_meant_to_stand_still_is_not_asked_to_move) {
-  Plan still = static_plan(paper_plan(), 0.7);
+  Plan still = still_plan(paper_plan(), 0.7);
   still.limits.speed_min_m_s = 1.0;
   EXPECT_FALSE(certify(still).admissible());
   EXPECT_TRUE(certify(still, {true, true, false}).admissible());

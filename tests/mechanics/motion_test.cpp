@@ -103,6 +103,28 @@ RC_GTEST_PROP(Motion, every_derivative_is_the_limit_of_differences, ()) {
   }
 }
 
+// The clock tau passes at any pace: p(tau(t)), with tau = tau0 + pace t + rate t² / 2.
+RC_GTEST_PROP(Motion, on_a_paced_clock_every_derivative_is_the_limit_of_differences, ()) {
+  const Plan plan = random_plan();
+  const double tau_s = random_time(plan);
+  const double pace = real(-0.5, 1.5);
+  for (const CarrierSlice& slice : slices(plan)) {
+    const double w = slice.rate_rad_s;
+    const double rate_1_s = real(-1.0, 1.0) * w;
+    const auto at = [&](double t_s) {
+      const Reference r = evaluate(slice, tau_s + pace * t_s + 0.5 * rate_1_s * t_s * t_s);
+      return paced(r.position_w_m, pace + rate_1_s * t_s, rate_1_s);
+    };
+    const double h = 1e-3 / w;
+    const auto now = at(0.0);
+    const Eigen::Vector3d first = difference([&](double t) { return at(t).value; }, 0.0, h);
+    const Eigen::Vector3d second = difference([&](double t) { return at(t).first; }, 0.0, h);
+    const double scale = now.value.norm() + now.first.norm() / w + now.second.norm() / (w * w);
+    RC_ASSERT((first - now.first).norm() < 1e-7 * scale * w);
+    RC_ASSERT((second - now.second).norm() < 1e-7 * scale * w * w);
+  }
+}
+
 RC_GTEST_PROP(Motion, the_direction_is_a_unit_vector_along_the_force_and_moves_across_itself, ()) {
   const Plan plan = random_plan();
   const double t_s = random_time(plan);
@@ -150,6 +172,46 @@ RC_GTEST_PROP(Motion, it_repeats_after_its_period, ()) {
     const Eigen::Vector3d later = evaluate(slice, t_s + period_s(plan)).position_w_m.value;
     RC_ASSERT((later - evaluate(slice, t_s).position_w_m.value).norm() < 1e-10);
   }
+}
+
+/// Every number of a slice.
+std::vector<double*> numbers_of(CarrierSlice& s) {
+  std::vector<double*> out{&s.rate_rad_s, &s.cable_stiffness_n_m, &s.law.profile.mean, &s.law.profile.swing,
+                           &s.law.profile.phase_rad};
+  for (EdgePush* push : {&s.incoming, &s.outgoing}) {
+    out.insert(out.end(), {&push->offset_n, &push->amplitude_n, &push->phase_rad});
+  }
+  for (Eigen::Vector3d* v :
+       {&s.attachment_w_m, &s.particular_force_w_n, &s.incoming.direction, &s.outgoing.direction, &s.law.direction}) {
+    out.insert(out.end(), {&v->x(), &v->y(), &v->z()});
+  }
+  return out;
+}
+
+RC_GTEST_PROP(Slice, it_is_alike_but_for_rounding_and_not_beyond, ()) {
+  const CarrierSlice slice = slices(random_plan()).front();
+  CarrierSlice other = slice;
+  const std::vector<double*> numbers = numbers_of(other);
+  for (double* number : numbers) *number += 1e-12 * std::max(1.0, std::abs(*number)) * real(-1.0, 1.0);
+  RC_ASSERT(alike(slice, other));
+  for (double* number : numbers) {
+    const double before = *number;
+    *number += 1e-8 * std::max(1.0, std::abs(before));
+    RC_ASSERT(!alike(slice, other));
+    *number = std::numeric_limits<double>::quiet_NaN();
+    RC_ASSERT(!alike(slice, other));
+    *number = before;
+  }
+  for (int* number : {&other.law.profile.harmonic.numerator, &other.law.profile.harmonic.denominator}) {
+    ++*number;
+    RC_ASSERT(!alike(slice, other));
+    --*number;
+  }
+  ++other.id;
+  RC_ASSERT(!alike(slice, other));
+  --other.id;
+  other.law.kind = slice.law.kind == LengthLaw::Kind::kFixed ? LengthLaw::Kind::kSine : LengthLaw::Kind::kFixed;
+  RC_ASSERT(!alike(slice, other));
 }
 
 TEST(Period, it_is_the_least_common_one_of_the_cycle_and_every_profile) {

@@ -190,6 +190,20 @@ Plan random_motion(Plan plan, bool mixed_laws) {
   return plan;
 }
 
+Plan still_plan(const Plan& plan, double theta_rad) {
+  Plan still = plan;
+  for (Edge& edge : still.cycle.edges) {
+    edge.offset_n += edge.amplitude_n * std::sin(theta_rad + edge.phase_rad);
+    edge.amplitude_n = 0.0;
+  }
+  for (Carrier& carrier : still.carriers) {
+    Oscillation& profile = carrier.law.profile;
+    profile.mean += profile.swing * std::sin(profile.harmonic.ratio() * theta_rad + profile.phase_rad);
+    profile.swing = 0.0;
+  }
+  return still;
+}
+
 Eigen::Matrix<double, 6, 1> wrench(const Plan& plan, const std::vector<Eigen::Vector3d>& forces_w_n) {
   Eigen::VectorXd stacked(3 * static_cast<Eigen::Index>(forces_w_n.size()));
   for (std::size_t i = 0; i < forces_w_n.size(); ++i)

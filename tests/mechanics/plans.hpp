@@ -37,6 +37,9 @@ struct RandomPlan {
 /// Another motion that holds the same load at the same attachments: other cycle, rate, forces and laws.
 [[nodiscard]] Plan random_motion(Plan plan, bool mixed_laws = true);
 
+/// The same load, held still as it is held at phase theta: no amplitude, and no profile that swings.
+[[nodiscard]] Plan still_plan(const Plan& plan, double theta_rad);
+
 /// Drawn evenly from [low, high].
 [[nodiscard]] double real(double low, double high);
 [[nodiscard]] std::size_t whole(std::size_t low, std::size_t high);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace gyre::mechanics {
@@ -84,13 +85,20 @@ TEST(Quintic, the_step_only_rises_and_is_the_same_backwards) {
   }
 }
 
-TEST(Quintic, the_integral_grows_as_the_step) {
+TEST(Quintic, the_integrals_grow_as_what_they_are_of) {
+  using Integral = double (*)(double);
+  const std::pair<Quintic, Integral> pairs[] = {{kStep, smooth_step_integral},
+                                                {value_left, value_left_integral},
+                                                {slope_left, slope_left_integral},
+                                                {curvature_left, curvature_left_integral}};
   const double h = 1e-4;
-  EXPECT_EQ(smooth_step_integral(0.0), 0.0);
-  EXPECT_NEAR(smooth_step_integral(1.0), 0.5, 1e-15);
-  for (double x = h; x < 1.0 - h; x += 0.01) {
-    EXPECT_NEAR((smooth_step_integral(x + h) - smooth_step_integral(x - h)) / (2.0 * h), at(kStep, x).value, 1e-7);
+  for (const auto& [quintic, integral] : pairs) {
+    EXPECT_EQ(integral(0.0), 0.0);
+    for (double x = h; x < 1.0 - h; x += 0.01) {
+      EXPECT_NEAR((integral(x + h) - integral(x - h)) / (2.0 * h), at(quintic, x).value, 1e-7) << x;
+    }
   }
+  EXPECT_NEAR(smooth_step_integral(1.0), 0.5, 1e-15);
 }
 
 TEST(Quintic, its_peaks_are_attained_and_never_passed) {

@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "common/mechanics/grasp.hpp"
-#include "common/mechanics/rest_plan.hpp"
 #include "common/mechanics/transition_figures.hpp"
 #include "tests/mechanics/plans.hpp"
 #include "tests/mechanics/track.hpp"
@@ -193,9 +192,11 @@ RC_GTEST_PROP(TransitionFigures, they_do_so_for_three_layers_that_overlap, ()) {
   check_figures(stack, -0.5, 12.5);
 }
 
-TEST(TransitionFigures, the_papers_engagement_is_tight_in_its_acceleration_too) {
+TEST(TransitionFigures, a_change_of_the_papers_motion_is_tight_in_its_acceleration_too) {
+  Plan headings = paper_plan();
+  take_edge_headings(headings);
   Stack stack;
-  stack.add(rest_plan(paper_plan()), 0.0, 0.0, 0.0);
+  stack.add(headings, 0.0, 0.0, 0.0);
   stack.add(paper_plan(), 0.0, 0.0, 20.0);
   for (std::size_t i = 0; i < stack.carriers(); ++i) {
     double sampled = 0.0;
@@ -208,7 +209,7 @@ TEST(TransitionFigures, the_papers_engagement_is_tight_in_its_acceleration_too) 
 }
 
 TEST(TransitionFigures, a_carrier_that_does_not_move_has_figures_without_width) {
-  const Plan rest = static_plan(paper_plan(), 1.0);
+  const Plan rest = still_plan(paper_plan(), 1.0);
   Stack stack;
   stack.add(rest, 0.0, 0.0, 0.0);
   stack.add(rest, 3.0, 1.0, 5.0);
@@ -251,31 +252,6 @@ TEST(TransitionFigures, a_cable_through_the_horizontal_has_no_bounded_length) {
     EXPECT_EQ(f.length_m.max, std::numeric_limits<double>::infinity());
   }
   EXPECT_GT(turned_over, 0);
-}
-
-// -------------------------------------------------------------------------------------------------------------- rest
-
-TEST(Rest, it_is_the_centre_of_the_orbits_where_the_limits_allow) {
-  const Plan rest = rest_plan(paper_plan());
-  const Certificate certificate = certify(rest, {true, true, false});
-  EXPECT_TRUE(certificate.admissible());
-  for (const CarrierFigures& c : certificate.carriers) EXPECT_EQ(c.speed_m_s.max, 0.0);
-  for (const CarrierSlice& slice : slices(rest)) EXPECT_EQ(force(slice, 0.0).value, slice.particular_force_w_n);
-}
-
-TEST(Rest, it_is_on_the_orbits_where_the_centre_is_too_close) {
-  Plan plan = polygon_plan(3);
-  for (Carrier& carrier : plan.carriers) carrier.attachment_b_m.head<2>() *= 0.01;  // a small load, wide circles
-  const double in_flight = certify(plan).separation->min_m;
-  const double at_centre = certify(rest_plan(plan), {true, false, false}).separation->min_m;
-  ASSERT_GT(in_flight, at_centre);
-  plan.limits.separation_min_m = 0.5 * (in_flight + at_centre);
-  const Plan rest = rest_plan(plan);
-  EXPECT_TRUE(certify(rest, {true, false, false}).admissible());
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Eigen::Vector3d place = evaluate(slices(rest)[i], 1.0).position_w_m.value;
-    EXPECT_LT((place - evaluate(slices(plan)[i], 0.0).position_w_m.value).norm(), 1e-12);
-  }
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "common/mechanics/carrier_slice.hpp"
 #include "common/mission/mission.hpp"
 #include "tests/mission/sample_missions.hpp"
@@ -77,14 +79,44 @@ void expect_same(const Mission& a, const Mission& b) {
     EXPECT_EQ(a.simulation.wind->gust_time_s, b.simulation.wind->gust_time_s);
     EXPECT_EQ(a.simulation.wind->seed, b.simulation.wind->seed);
   }
+  EXPECT_EQ(a.holds, b.holds);
   EXPECT_EQ(a.transition_duration_s, b.transition_duration_s);
-  EXPECT_EQ(a.agent_loss, b.agent_loss);
+  EXPECT_EQ(a.silence.stop_after, b.silence.stop_after);
   EXPECT_EQ(a.load_tolerance.displacement_max_m, b.load_tolerance.displacement_max_m);
   EXPECT_EQ(a.load_tolerance.rotation_max_deg, b.load_tolerance.rotation_max_deg);
 }
 
 TEST(RoundTrip, AMissionWithEverything) {
   const Mission mission = parsed(replaced(kGoodMission, "z: 1.2 }", "z: 1.2 xy: 0.1 xz: -0.05 yz: 0.02 }"));
+  expect_same(mission, parsed(mission::to_text(mission)));
+}
+
+TEST(RoundTrip, SilenceInEveryForm) {
+  const auto with = [](const std::string& silence) {
+    return parsed(replaced(kGoodMission, "silence { fly_on {} }", silence));
+  };
+  const std::pair<const char*, std::optional<Duration>> forms[] = {
+      {"", std::chrono::seconds(5)},
+      {"silence { fly_on {} }", std::nullopt},
+      {"silence { stop_after_s: 2 }", protocol::kShortestLease},
+      {"silence { stop_after_s: 7.25 }", std::chrono::milliseconds(7250)},
+      {"silence { stop_after_s: 600 }", protocol::kLongestLease},
+  };
+  for (const auto& [text, stop_after] : forms) {
+    SCOPED_TRACE(text);
+    const Mission mission = with(text);
+    EXPECT_EQ(mission.silence.stop_after, stop_after);
+    expect_same(mission, parsed(mission::to_text(mission)));
+  }
+}
+
+TEST(RoundTrip, VehiclesThatHoldAndVehiclesThatGoOn) {
+  std::string text = replaced(kGoodMission, "altitude_m: 14 }", "altitude_m: 14 } vehicle { on_silence: GO_ON }");
+  text = replaced(text, "length_m: 11 }", "length_m: 11 } vehicle { on_silence: HOLD }");
+  text = replaced(text, "phase_rad: 0.2 }", "phase_rad: 0.2 } vehicle {}");
+  text = replaced(text, "mean_m: 12 }", "mean_m: 12 } vehicle { on_silence: HOLD }");
+  const Mission mission = parsed(text);
+  EXPECT_EQ(mission.holds, (std::set<CarrierId>{2, 4}));
   expect_same(mission, parsed(mission::to_text(mission)));
 }
 
@@ -116,7 +148,7 @@ TEST(Reading, AllIsWhereTheFileSays) {
   EXPECT_EQ(mission.simulation.wind->force_w_n, Eigen::Vector3d(1, -2, 0));
   EXPECT_EQ(mission.simulation.wind->seed, 7u);
   EXPECT_EQ(mission.transition_duration_s, 20.0);
-  EXPECT_EQ(mission.agent_loss, protocol::AgentLoss::kContinue);
+  EXPECT_EQ(mission.silence.stop_after, std::nullopt);
 }
 
 TEST(Reading, WhatAbsenceMeans) {
@@ -132,8 +164,9 @@ TEST(Reading, WhatAbsenceMeans) {
   EXPECT_EQ(mission.winch.time_constant_s, std::nullopt);
   EXPECT_EQ(mission.simulation.carrier_time_constant_s, std::nullopt);
   EXPECT_FALSE(mission.simulation.wind);
+  EXPECT_TRUE(mission.holds.empty());
   EXPECT_EQ(mission.transition_duration_s, std::nullopt);
-  EXPECT_EQ(mission.agent_loss, protocol::AgentLoss::kFreeze);
+  EXPECT_EQ(mission.silence.stop_after, Duration(std::chrono::seconds(5)));
 }
 
 TEST(Reading, UncompensatedStretchReachesTheSlices) {

@@ -35,7 +35,7 @@ limits { tension_min_n: 1 tension_max_n: 50 length_min_m: 2 length_max_m: 30 }
 winch { time_constant_s: 0.05 rate_max_m_s: 2 }
 simulation { carrier_time_constant_s: 0.1 wind { force_n { x: 1 y: -2 z: 0 } gust_n: 0.5 gust_time_s: 2 seed: 7 } }
 transition { duration_s: 20 }
-agent_loss: CONTINUE
+silence { fly_on {} }
 )";
 
 inline std::string replaced(std::string text, const std::string& what, const std::string& with) {

@@ -50,6 +50,15 @@ TEST(Shipped, TheVerdictsAreTheIntendedOnes) {
   EXPECT_TRUE(broken(certified("pair-level"), mechanics::Rule::kTwoCarrierObstruction));
 }
 
+TEST(Shipped, OnlyWhatCannotStopOrIsMeantToEndureFliesOnInSilence) {
+  for (const std::string& name : kShippedMissions) {
+    const Result<mission::Mission> mission = mission::read_mission_file(shipped_path(name));
+    ASSERT_TRUE(mission) << name;
+    const bool flies_on = name == "fixed-wing-trio" || name == "paper-enduring";
+    EXPECT_EQ(!mission.value().silence.stop_after, flies_on) << name;
+  }
+}
+
 TEST(Shipped, TheWingedTrioKeepsFlyingAndApart) {
   const mechanics::Certificate certificate = certified("fixed-wing-trio");
   EXPECT_GE(certificate.separation->min_m, 4.0);

@@ -32,11 +32,19 @@ inline constexpr double kUnmoved_m = 1e-3;
 inline constexpr double kUnturned_deg = 0.1;
 inline constexpr double kNoPositionStep_m = 2e-5;
 inline constexpr double kNoVelocityStep_m_s = 2e-3;
+/// Where nobody's clock is wrong: 0.1 mm on a machine that has time. A millisecond by which clocks disagree is 0.19 mm
+/// at 1 rad/s, and on a busy machine they may, for a moment, after a coordinator took over.
+inline constexpr double kStill_m = 3e-4;
 /// What is left of the load's swing when everybody does again what he should: nothing damps it but the cables.
 inline constexpr double kSwing_m = 0.03;
 
-/// A carrier that hears no agent coasts for 3 s. How far the others have gone by then is what the load feels, so the
-/// rate of such flights is a real one's.
+/// What the swarm does when somebody falls silent.
+inline constexpr const char* kStop = "silence { stop_after_s: 5 }";
+inline constexpr const char* kFlyOn = "silence { fly_on {} }";
+inline constexpr double kLease_s = 5.0;
+inline constexpr double kStopping_s = 2.0;  // at the end of a lease
+
+/// Of flights where a vehicle may have to go on without anybody: a real load's rate.
 inline constexpr double kRate_rad_s = 0.1;
 
 struct Row {
@@ -86,9 +94,9 @@ class FaultTest : public ProgramsTest {
 
   static std::string mission() { return std::string(GYRE_SOURCE_DIR) + "/tests/processes/missions/faults.textproto"; }
   /// The same mission at another rate, and with another policy.
-  [[nodiscard]] std::string mission_at(double rate_rad_s, const std::string& agent_loss) const {
+  [[nodiscard]] std::string mission_at(double rate_rad_s, const std::string& silence) const {
     std::ostringstream text;
-    text << std::ifstream(mission()).rdbuf() << "agent_loss: " << agent_loss << "\n";
+    text << std::ifstream(mission()).rdbuf() << silence << "\n";
     std::string words = text.str();
     const std::string before = "rate_rad_s: 1";
     words.replace(words.find(before), before.size(), "rate_rad_s: " + std::to_string(rate_rad_s));
@@ -96,6 +104,19 @@ class FaultTest : public ProgramsTest {
     std::ofstream(path) << words;
     return path;
   }
+  /// One whose carrier's vehicle brakes on the spot when nobody tells it anything.
+  [[nodiscard]] std::string mission_at(double rate_rad_s, const std::string& silence, CarrierId holding) const {
+    const std::string path = mission_at(rate_rad_s, silence);
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    std::string words = text.str();
+    const std::string before = "carrier { id: " + std::to_string(holding) + " ";
+    words.replace(words.find(before), before.size(), before + "vehicle { on_silence: HOLD } ");
+    std::ofstream(path) << words;
+    return path;
+  }
+  /// As it is, but for its policy.
+  [[nodiscard]] std::string mission_with(const std::string& silence) const { return mission_at(1.0, silence); }
 
   void start(const std::string& mission, const std::map<std::string, ClockFault>& clocks = {}, bool engage = true) {
     auto started = FaultFlight::start({mission, directory(), GYRE_BIN_DIR, clocks, engage});
@@ -114,7 +135,7 @@ class FaultTest : public ProgramsTest {
   void land() {
     flight_->send("coordinator", SIGINT);
     const auto took = FaultFlight::seconds_until(kRecovery_s, [&] {
-      return flight_->said("coordinator").find("the flight has ended at rest") != std::string::npos;
+      return flight_->said("coordinator").find("at rest; the flight has ended") != std::string::npos;
     });
     EXPECT_TRUE(took) << flight_->said("coordinator");
   }
@@ -146,6 +167,11 @@ class FaultTest : public ProgramsTest {
     LossTable::rows().push_back(flight_->observer().ask(figures));
     return LossTable::rows().back();
   }
+  /// The load does not move at all.
+  void expect_still(const Row& row) {
+    EXPECT_LT(row.load.displacement_max_m, kStill_m);
+    expect_unmoved(row);
+  }
   /// The load does not notice, and no setpoint steps.
   void expect_unmoved(const Row& row) {
     EXPECT_LT(row.load.displacement_max_m, kUnmoved_m);
@@ -166,6 +192,22 @@ class FaultTest : public ProgramsTest {
   }
   [[nodiscard]] bool all_follow_a_term_above(std::uint64_t term) const {
     return flight_->every_agent([&](const protocol::AgentStatus& s) { return s.term > term; });
+  }
+
+  /// Every agent stops at the end of the lease, and nobody goes on; how long after now.
+  std::optional<double> all_stop() {
+    return FaultFlight::seconds_until(kLease_s + kStopping_s + 2.0, [&] { return flight_->all_at_rest(); });
+  }
+  /// A person's word, and the answer.
+  std::optional<protocol::CommandReply> ask(protocol::CommandKind kind, double pace = 1.0) {
+    const std::uint64_t command = flight_->observer().command(kind, pace);
+    std::optional<protocol::CommandReply> reply;
+    (void)FaultFlight::seconds_until(kRecovery_s, [&] { return (reply = flight_->reply(command)).has_value(); });
+    return reply;
+  }
+  void expect_done(const std::optional<protocol::CommandReply>& reply) {
+    ASSERT_TRUE(reply) << "nobody answered\n" << flight_->said_by_all();
+    EXPECT_TRUE(reply->done) << reply->text;
   }
 
   std::optional<PrivateNetwork> network_;

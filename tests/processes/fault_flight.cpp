@@ -101,20 +101,33 @@ bool FaultFlight::every_agent(const std::function<bool(const protocol::AgentStat
 
 bool FaultFlight::all_flying() const {
   return every_agent([](const protocol::AgentStatus& s) {
-    return s.state == protocol::AgentState::kFlying && s.course.transitions.empty();
+    const protocol::Pace pace = s.course.flown_pace(s.swarm_time);
+    return s.state == protocol::AgentState::kFlying && s.course.transitions.empty() && pace.constant(s.swarm_time) &&
+           pace.target() == 1.0;
   });
 }
 
 bool FaultFlight::all_ready() const {
-  return every_agent([](const protocol::AgentStatus& s) {
-    return s.state == protocol::AgentState::kReady && s.course.transitions.empty();
+  return every_agent([](const protocol::AgentStatus& s) { return s.state == protocol::AgentState::kReady; });
+}
+
+bool FaultFlight::all_at_rest() const {
+  return every_agent([](const protocol::AgentStatus& s) { return s.course.rests(s.swarm_time); });
+}
+
+std::optional<protocol::Beacon> FaultFlight::beacon() const {
+  return observer_->ask([](const FlightRecord& record) -> std::optional<protocol::Beacon> {
+    if (record.beacons.empty()) return std::nullopt;
+    return record.beacons.back().message;
   });
 }
 
-std::optional<protocol::Transition> FaultFlight::transition() const {
-  return observer_->ask([](const FlightRecord& record) -> std::optional<protocol::Transition> {
-    if (record.beacons.empty() || record.beacons.back().message.course.transitions.empty()) return std::nullopt;
-    return record.beacons.back().message.course.transitions.back();
+std::optional<protocol::CommandReply> FaultFlight::reply(std::uint64_t command) const {
+  return observer_->ask([command](const FlightRecord& record) -> std::optional<protocol::CommandReply> {
+    for (const auto& heard : record.replies) {
+      if (heard.message.id == command) return heard.message;
+    }
+    return std::nullopt;
   });
 }
 

@@ -57,12 +57,15 @@ class FaultFlight {
 
   /// Every agent's newest status, not older than 300 ms, is so.
   [[nodiscard]] bool every_agent(const std::function<bool(const protocol::AgentStatus&)>& is_so) const;
-  /// By the mission's motion, with no transition under way.
+  /// At full pace, with no change under way.
   [[nodiscard]] bool all_flying() const;
-  /// By a plan at rest, with no transition under way.
+  /// At rest, and hearing the coordinator.
   [[nodiscard]] bool all_ready() const;
-  /// The transition the newest beacon has on top, if any.
-  [[nodiscard]] std::optional<protocol::Transition> transition() const;
+  /// At rest, whoever hears whom.
+  [[nodiscard]] bool all_at_rest() const;
+  /// The newest.
+  [[nodiscard]] std::optional<protocol::Beacon> beacon() const;
+  [[nodiscard]] std::optional<protocol::CommandReply> reply(std::uint64_t command) const;
   [[nodiscard]] std::uint64_t term() const;
 
  private:

@@ -8,7 +8,8 @@ namespace {
 
 using protocol::AgentState;
 using protocol::AgentStatus;
-using protocol::Stage;
+using protocol::CommandKind;
+using protocol::Wisher;
 
 const auto* const kTable = testing::AddGlobalTestEnvironment(new LossTable);
 
@@ -37,7 +38,7 @@ TEST_F(FaultTest, MostPacketsAreLost) {
   ASSERT_NO_FATAL_FAILURE(start(mission(), {}, false));
   ASSERT_TRUE(FaultFlight::seconds_until(kStart_s, [&] { return flight_->all_ready(); })) << flight_->said_by_all();
   network_->lose(60, instrument_and_vehicles());
-  flight_->observer().command(protocol::CommandKind::kEngage);
+  flight_->observer().command(CommandKind::kEngage);
   ASSERT_NO_FATAL_FAILURE(fly());
   wait(6.0);
   land();
@@ -56,20 +57,53 @@ TEST_F(FaultTest, MostPacketsAreLostOnBoardToo) {
   expect_continuous(row);
 }
 
-TEST_F(FaultTest, TheRadioIsOut) {
-  ASSERT_NO_FATAL_FAILURE(fly(mission()));
+TEST_F(FaultTest, TheRadioIsOutAndAllFlyOn) {
+  ASSERT_NO_FATAL_FAILURE(fly(mission_with(kFlyOn)));
   network_->lose(100, instrument_and_vehicles());
-  wait(5.0);
-  EXPECT_TRUE(flight_->every_agent([](const AgentStatus& s) { return s.state == AgentState::kAlone; }));
+  wait(kLease_s + 2.0);
+  EXPECT_TRUE(flight_->every_agent(
+      [](const AgentStatus& s) { return s.state == AgentState::kAlone && !s.course.rests(s.swarm_time); }));
   network_->heal();
-  const auto took = FaultFlight::seconds_until(kRecovery_s, [&] { return nobody_alone(); });
+  const auto took = FaultFlight::seconds_until(kRecovery_s, [&] { return flight_->all_flying(); });
   wait(2.0);
   ASSERT_TRUE(took);
-  expect_unmoved(measure("radio out for 5 s", text("all hear the coordinator again %.1f s after", *took)));
+  expect_unmoved(
+      measure("radio out for 7 s, policy fly on", text("all hear the coordinator again %.1f s after", *took)));
+}
+
+TEST_F(FaultTest, TheRadioIsOutWithinTheLease) {
+  ASSERT_NO_FATAL_FAILURE(fly(mission()));
+  network_->lose(100, instrument_and_vehicles());
+  wait(3.0);
+  EXPECT_TRUE(flight_->every_agent([](const AgentStatus& s) { return s.state == AgentState::kAlone; }));
+  network_->heal();
+  const auto took = FaultFlight::seconds_until(kRecovery_s, [&] { return flight_->all_flying(); });
+  wait(kLease_s);
+  EXPECT_TRUE(flight_->all_flying()) << "what was in doubt was only the lease";
+  ASSERT_TRUE(took);
+  expect_unmoved(measure("radio out for 3 s", text("all hear the coordinator again %.1f s after", *took)));
+}
+
+TEST_F(FaultTest, TheRadioIsOutBeyondTheLease) {
+  ASSERT_NO_FATAL_FAILURE(fly(mission()));
+  network_->lose(100, instrument_and_vehicles());
+  const auto stopped = all_stop();
+  ASSERT_TRUE(stopped) << flight_->said_by_all();
+  EXPECT_GT(*stopped, kLease_s);
+  network_->heal();
+  const auto took = FaultFlight::seconds_until(kRecovery_s, [&] { return flight_->all_ready(); });
+  wait(2.0);
+  EXPECT_TRUE(flight_->all_ready()) << "stopped by silence, it waits for a person";
+  expect_done(ask(CommandKind::kEngage));
+  ASSERT_NO_FATAL_FAILURE(fly());
+  ASSERT_TRUE(took);
+  expect_unmoved(
+      measure("radio out beyond the lease",
+              text("all at rest %.1f s after; all hear it again after %.1f s, and fly when engaged", *stopped, *took)));
 }
 
 TEST_F(FaultTest, EverythingIsOut) {
-  ASSERT_NO_FATAL_FAILURE(fly(mission_at(kRate_rad_s, "FREEZE")));
+  ASSERT_NO_FATAL_FAILURE(fly(mission_at(kRate_rad_s, kFlyOn)));
   network_->lose(100, instrument());
   wait(5.0);
   network_->heal();
@@ -98,7 +132,7 @@ TEST_F(FaultTest, EveryClockIsWrong) {
 }
 
 TEST_F(FaultTest, EveryClockIsWrongAndTheRadioIsOut) {
-  ASSERT_NO_FATAL_FAILURE(fly(mission(), kWrongClocks));
+  ASSERT_NO_FATAL_FAILURE(fly(mission_with(kFlyOn), kWrongClocks));
   wait(2.0);
   network_->lose(100, instrument_and_vehicles());
   wait(5.0);
@@ -112,24 +146,57 @@ TEST_F(FaultTest, EveryClockIsWrongAndTheRadioIsOut) {
 
 // --------------------------------------------------------------------------------------------------- the coordinator
 
-TEST_F(FaultTest, TheCoordinatorIsKilledInMotion) {
+TEST_F(FaultTest, TheCoordinatorIsKilledAndBackWithinTheLease) {
   ASSERT_NO_FATAL_FAILURE(fly(mission()));
   const std::uint64_t term = flight_->term();
   flight_->kill("coordinator");
   wait(2.0);
   const auto took = take_over_and_land(term);
   ASSERT_TRUE(took);
-  expect_unmoved(measure("coordinator killed in motion, started again after 2 s",
-                         text("followed by all %.1f s after its start", *took)));
+  expect_still(measure("coordinator killed in motion, started again after 2 s",
+                       text("followed by all %.1f s after its start, and nothing happened", *took)));
 }
 
-TEST_F(FaultTest, TheCoordinatorIsKilledInATransition) {
+TEST_F(FaultTest, TheCoordinatorIsDeadBeyondTheLease) {
+  ASSERT_NO_FATAL_FAILURE(fly(mission()));
+  flight_->kill("coordinator");
+  const auto stopped = all_stop();
+  ASSERT_TRUE(stopped) << flight_->said_by_all();
+  wait(2.0);
+  EXPECT_TRUE(flight_->all_at_rest());
+  // Whoever starts it again, and however: what stopped by itself stays until a person engages.
+  flight_->start_process("coordinator", {"--engage"});
+  const auto took = FaultFlight::seconds_until(kRecovery_s, [&] { return flight_->all_ready(); });
+  ASSERT_TRUE(took) << flight_->said_by_all();
+  wait(3.0);
+  EXPECT_TRUE(flight_->all_ready()) << flight_->said_by_all();
+  EXPECT_EQ(flight_->beacon()->course.wish.by, Wisher::kSilence);
+  expect_done(ask(CommandKind::kEngage));
+  ASSERT_NO_FATAL_FAILURE(fly());
+  expect_still(measure("coordinator dead beyond the lease",
+                       text("all at rest %.1f s after; the next one leads %.1f s after its start, and nobody moves "
+                            "before a person engages",
+                            *stopped, *took)));
+}
+
+TEST_F(FaultTest, TheCoordinatorIsDeadAndAllFlyOn) {
+  ASSERT_NO_FATAL_FAILURE(fly(mission_with(kFlyOn)));
+  const std::uint64_t term = flight_->term();
+  flight_->kill("coordinator");
+  wait(kLease_s + kStopping_s + 2.0);
+  EXPECT_TRUE(flight_->every_agent(
+      [](const AgentStatus& s) { return s.state == AgentState::kAlone && !s.course.rests(s.swarm_time); }));
+  const auto took = take_over_and_land(term);
+  ASSERT_TRUE(took);
+  expect_still(
+      measure("coordinator dead for 9 s, policy fly on", text("followed by all %.1f s after its start", *took)));
+}
+
+TEST_F(FaultTest, TheCoordinatorIsKilledWhileThePaceChanges) {
   ASSERT_NO_FATAL_FAILURE(start(mission()));
   const auto half_way = [&] {
-    const auto t = flight_->transition();
-    return t && t->stage == Stage::kGo && flight_->observer().ask([&](const FlightRecord& record) {
-      return record.beacons.back().message.swarm_time > t->start + t->duration / 2;
-    });
+    const auto beacon = flight_->beacon();
+    return beacon && beacon->course.moment(beacon->swarm_time).pace > 0.5;
   };
   ASSERT_TRUE(FaultFlight::seconds_until(kStart_s, half_way)) << flight_->said_by_all();
   const std::uint64_t term = flight_->term();
@@ -137,26 +204,28 @@ TEST_F(FaultTest, TheCoordinatorIsKilledInATransition) {
   wait(0.3);
   const auto took = take_over_and_land(term);
   ASSERT_TRUE(took);
-  expect_unmoved(measure("coordinator killed half-way through a transition",
-                         text("followed by all %.1f s after its start; the transition was completed", *took)));
+  expect_still(measure("coordinator killed half-way to full pace",
+                       text("followed by all %.1f s after its start; full pace was reached", *took)));
 }
 
 TEST_F(FaultTest, TheCoordinatorIsKilledWhileItProposes) {
-  ASSERT_NO_FATAL_FAILURE(start(mission()));
-  const auto proposed = [&] {
-    const auto t = flight_->transition();
-    return t && t->stage == Stage::kProposed;
-  };
-  ASSERT_TRUE(FaultFlight::seconds_until(kStart_s, proposed)) << flight_->said_by_all();
+  ASSERT_NO_FATAL_FAILURE(start(mission(), {}, false));
+  ASSERT_TRUE(FaultFlight::seconds_until(kStart_s, [&] { return flight_->all_ready(); })) << flight_->said_by_all();
+  flight_->send(agent_name(3), SIGSTOP);  // does not confirm, and is not silent yet
+  flight_->observer().command(CommandKind::kEngage);
+  const auto proposed = [&] { return flight_->beacon()->proposal.has_value(); };
+  const bool seen = FaultFlight::seconds_until(1.0, proposed).has_value();
   flight_->kill("coordinator");
+  flight_->send(agent_name(3), SIGCONT);
+  ASSERT_TRUE(seen) << flight_->said_by_all();
   wait(2.0);
-  EXPECT_TRUE(flight_->every_agent([](const AgentStatus& s) { return s.state == AgentState::kAlone; }));
+  EXPECT_TRUE(flight_->all_at_rest());
   flight_->start_process("coordinator", {"--engage"});
   const auto took = FaultFlight::seconds_until(kRecovery_s, [&] { return flight_->all_flying(); });
   ASSERT_TRUE(took) << flight_->said_by_all();
   wait(2.0);
-  expect_unmoved(measure("coordinator killed between proposal and go",
-                         text("nobody moved; flying %.1f s after its start", *took)));
+  expect_still(measure("coordinator killed between proposal and go",
+                       text("nobody moved; flying %.1f s after its start", *took)));
 }
 
 TEST_F(FaultTest, TheCoordinatorIsEndedByTheSystem) {
@@ -183,6 +252,38 @@ TEST_F(FaultTest, TheCoordinatorIsStopped) {
   land();
   ASSERT_TRUE(took);
   expect_unmoved(measure("coordinator stopped for 2 s", text("all hear it again %.1f s after", *took)));
+}
+
+// -------------------------------------------------------------------------------------------------------- the person
+
+TEST_F(FaultTest, APersonStopsAndStartsAtAnyMoment) {
+  ASSERT_NO_FATAL_FAILURE(start(mission()));
+  const auto moving = [&] {
+    const auto beacon = flight_->beacon();
+    return beacon && beacon->course.moment(beacon->swarm_time).pace > 0.3;
+  };
+  ASSERT_TRUE(FaultFlight::seconds_until(kStart_s, moving)) << flight_->said_by_all();
+  expect_done(ask(CommandKind::kFreeze));  // on the way to full pace
+  wait(0.3);
+  expect_done(ask(CommandKind::kEngage));  // and while it stops
+  ASSERT_NO_FATAL_FAILURE(fly());
+  expect_done(ask(CommandKind::kFreeze));
+  ASSERT_TRUE(FaultFlight::seconds_until(kRecovery_s, [&] { return flight_->all_ready(); })) << flight_->said_by_all();
+  expect_done(ask(CommandKind::kEngage));
+  wait(1.0);
+  expect_done(ask(CommandKind::kPace, 0.4));
+  wait(3.0);
+  EXPECT_TRUE(flight_->every_agent([](const AgentStatus& s) { return s.course.moment(s.swarm_time).pace == 0.4; }));
+  expect_done(ask(CommandKind::kEngage));
+  ASSERT_NO_FATAL_FAILURE(fly());
+  for (int i = 0; i < 4; ++i) {
+    expect_done(ask(CommandKind::kFreeze));
+    wait(0.17 * (i + 1));
+    expect_done(ask(CommandKind::kEngage));
+    wait(0.23 * (i + 1));
+  }
+  ASSERT_NO_FATAL_FAILURE(fly());
+  expect_still(measure("frozen, slowed and engaged thirteen times, at any moment", ""));
 }
 
 }  // namespace

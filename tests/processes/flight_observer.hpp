@@ -33,6 +33,7 @@ struct CarrierRecord {
 
 struct FlightRecord {
   Heards<protocol::Beacon> beacons;
+  Heards<protocol::CommandReply> replies;
   Heards<protocol::LoadState> load;
   std::map<CarrierId, CarrierRecord> carriers;
 };
@@ -50,7 +51,15 @@ class FlightObserver {
     return std::unique_ptr<FlightObserver>(new FlightObserver(std::move(node).value(), carriers, watch));
   }
 
-  void command(protocol::CommandKind kind) { commands_.write({++last_command_, kind, {}}); }
+  /// Its number, to find the reply by.
+  std::uint64_t command(protocol::CommandKind kind, double pace = 1.0) {
+    protocol::Command command;
+    command.id = ++last_command_;
+    command.kind = kind;
+    command.pace = pace;
+    commands_.write(command);
+    return command.id;
+  }
 
   /// What `question(const FlightRecord&)` answers, while nothing is added.
   template <class Question>
@@ -66,6 +75,7 @@ class FlightObserver {
     for (const CarrierId id : carriers) keep(record_.carriers[id].statuses, id);
     if (watch == Watch::kStatuses) return;
     keep(record_.beacons, std::nullopt);
+    keep(record_.replies, std::nullopt);
     keep(record_.load, std::nullopt);
     for (const CarrierId id : carriers) {
       CarrierRecord& carrier = record_.carriers[id];  // a map's elements stay where they are

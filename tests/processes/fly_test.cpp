@@ -129,6 +129,27 @@ TEST_F(FlyTest, AReleaseFromOutsideEndsTheFlightWell) {
   EXPECT_THAT(flight.said(), HasSubstr("GOOD"));
 }
 
+TEST_F(FlyTest, APersonSlowsTheMotionSeesItInStatusAndStopsItAtAPhase) {
+  Launched flight = fly({"--duration", "60"});
+  ASSERT_TRUE(flight.says_within(kFlight_s, "flying")) << flight.said();
+  const std::string domain = domain_of(flight);
+  Launched pace = gyre({"pace", "0.5", "--domain", domain});
+  EXPECT_EQ(pace.end_within(20.0).exit_code, 0) << pace.said();
+  EXPECT_THAT(pace.said(), HasSubstr("the swarm goes to 50 % of its pace"));
+  ASSERT_TRUE(flight.says_within(10.0, "slowed")) << flight.said();
+  Launched again = gyre({"pace", "0.5", "--domain", domain});
+  EXPECT_EQ(again.end_within(20.0).exit_code, 1) << "already at that pace";
+  Launched status = gyre({"status", "--domain", domain});
+  EXPECT_EQ(status.end_within(20.0).exit_code, 0) << status.said();
+  EXPECT_THAT(status.said(), HasSubstr("wish     motion at 50 %, as a person asked; the pace is "));
+  EXPECT_THAT(status.said(), HasSubstr("the lease runs for another "));
+  Launched release = gyre({"release", "--phase", "90", "--domain", domain});
+  EXPECT_EQ(release.end_within(20.0).exit_code, 0) << release.said();
+  EXPECT_THAT(release.said(), HasSubstr("the swarm comes to rest"));
+  EXPECT_EQ(flight.end_within(60.0).exit_code, 0) << flight.said();
+  EXPECT_THAT(flight.said(), HasSubstr("GOOD"));
+}
+
 TEST_F(FlyTest, ARefusedMissionIsRefusedAsByCheck) {
   Launched flight = gyre({"fly", shipped_mission("pair-level")});
   EXPECT_EQ(flight.end_within(10.0).exit_code, 1);

@@ -31,21 +31,27 @@ std::optional<std::string> nft(const std::string& arguments, const std::string& 
   return said;
 }
 
+std::string port_set(const std::vector<std::uint16_t>& ports) {
+  std::string listed;
+  for (const std::uint16_t port : ports) listed += (listed.empty() ? "{ " : ", ") + std::to_string(port);
+  return listed + " }";
+}
+
 /// Dropped as it comes in: a packet dropped on its way out would be told to the sender, which no radio does.
-std::string ruleset(int percent, const std::vector<std::uint16_t>& spared) {
+std::string table(const std::vector<std::uint16_t>& spared, const std::string& dropping) {
   std::string rules;
   if (!spared.empty()) {
-    std::string ports;
-    for (const std::uint16_t port : spared) ports += (ports.empty() ? "" : ", ") + std::to_string(port);
-    rules += " udp sport { " + ports + " } accept; udp dport { " + ports + " } accept;";
+    rules += " udp sport " + port_set(spared) + " accept; udp dport " + port_set(spared) + " accept;";
   }
-  // "below 100 of 100" is refused as a comparison that is always true.
-  rules += " meta l4proto udp";
-  if (percent < 100) rules += " numgen random mod 100 < " + std::to_string(percent);
-  rules += " counter drop;";
   return "add table inet faults; delete table inet faults; "
          "table inet faults { chain input { type filter hook input priority 0;" +
-         rules + " }; }";
+         rules + dropping + " }; }";
+}
+
+std::string ruleset(int percent, const std::vector<std::uint16_t>& spared) {
+  // "below 100 of 100" is refused as a comparison that is always true.
+  const std::string dice = percent < 100 ? " numgen random mod 100 < " + std::to_string(percent) : "";
+  return table(spared, " meta l4proto udp" + dice + " counter drop;");
 }
 
 bool apply(const std::string& rules) {
@@ -81,11 +87,20 @@ void PrivateNetwork::lose(int percent, const std::vector<std::uint16_t>& spared)
   GYRE_ENSURE(apply(ruleset(percent, spared)), "nft takes the ruleset that it took at the start");
 }
 
+void PrivateNetwork::cut(const std::vector<std::uint16_t>& ports, const std::vector<std::uint16_t>& spared) {
+  const std::string these = port_set(ports);
+  const std::string dropping = " udp sport " + these + " counter drop; udp dport " + these + " counter drop;";
+  GYRE_ENSURE(apply(table(spared, dropping)), "nft takes a ruleset like the one that it took at the start");
+}
+
 std::uint64_t PrivateNetwork::lost() const {
   const std::string rules = nft("list table inet faults").value_or("");
   const std::string before = "counter packets ";
-  const std::size_t at = rules.find(before);
-  return at == std::string::npos ? 0 : std::stoull(rules.substr(at + before.size()));
+  std::uint64_t lost = 0;
+  for (std::size_t at = rules.find(before); at != std::string::npos; at = rules.find(before, at + 1)) {
+    lost += std::stoull(rules.substr(at + before.size()));
+  }
+  return lost;
 }
 
 std::vector<std::uint16_t> udp_ports(pid_t pid) {

@@ -22,8 +22,10 @@ class PrivateNetwork {
 
   /// From now on drops `percent` of the UDP packets that neither come from nor go to one of the `spared` ports.
   void lose(int percent, const std::vector<std::uint16_t>& spared);
+  /// From now on drops every UDP packet from or to one of `ports`, unless its other end is one of the `spared`.
+  void cut(const std::vector<std::uint16_t>& ports, const std::vector<std::uint16_t>& spared);
   void heal() { lose(0, {}); }
-  /// Packets dropped since the last lose(): a fault that did not happen proves nothing.
+  /// Packets dropped since the last lose() or cut(): a fault that did not happen proves nothing.
   [[nodiscard]] std::uint64_t lost() const;
 };
 

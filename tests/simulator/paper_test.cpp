@@ -7,7 +7,6 @@
 
 #include "common/base/angle.hpp"
 #include "common/mechanics/grasp.hpp"
-#include "common/mechanics/rest_plan.hpp"
 #include "common/mechanics/stiffness.hpp"
 #include "common/mechanics/transition.hpp"
 #include "tests/simulator/rigs.hpp"
@@ -21,10 +20,10 @@ struct Deviation {
 };
 
 /// The furthest the load gets from where the plan holds it.
-Deviation furthest(const mechanics::Plan& plan, rigs::Stretch stretch, double until_s) {
+Deviation furthest(const mechanics::Plan& plan, const SurroundingsAt& surroundings, double until_s) {
   const LoadMotion start{plan.load.position_w_m, Eigen::Vector3d::Zero(), plan.load.orientation_w_b,
                          Eigen::Vector3d::Zero()};
-  LoadIntegrator flight(LoadDynamics(rigid_load(plan)), start, 0.0, rigs::planned(plan, stretch));
+  LoadIntegrator flight(LoadDynamics(rigid_load(plan)), start, 0.0, surroundings);
   Deviation out;
   for (double t_s = 0.05; t_s <= until_s; t_s += 0.05) {
     const auto failure = flight.advance_to(t_s);
@@ -39,7 +38,7 @@ Deviation furthest(const mechanics::Plan& plan, rigs::Stretch stretch, double un
 
 TEST(Paper, LoadHangsStillWhenStretchIsCompensated) {
   const mechanics::Plan plan = rigs::paper();
-  const Deviation level = furthest(plan, rigs::Stretch::kCompensated, mechanics::period_s(plan));
+  const Deviation level = furthest(plan, rigs::planned(plan, rigs::Stretch::kCompensated), mechanics::period_s(plan));
   std::printf("  paper, stretch compensated: %.5f mm, %.6f deg\n", 1e3 * level.displacement_m, level.rotation_deg);
   EXPECT_LT(level.displacement_m, 1e-4);
   EXPECT_LT(level.rotation_deg, 0.01);
@@ -47,14 +46,15 @@ TEST(Paper, LoadHangsStillWhenStretchIsCompensated) {
 
 TEST(Paper, LoadSagsByHalfAMillimetreWhenStretchIsIgnored) {
   const mechanics::Plan plan = rigs::paper();
-  const Deviation level = furthest(plan, rigs::Stretch::kIgnored, mechanics::period_s(plan));
+  const Deviation level = furthest(plan, rigs::planned(plan, rigs::Stretch::kIgnored), mechanics::period_s(plan));
   std::printf("  paper, stretch ignored: %.4f mm, %.5f deg\n", 1e3 * level.displacement_m, level.rotation_deg);
   EXPECT_GT(level.displacement_m, 4e-4);
   EXPECT_LT(level.displacement_m, 7e-4);
 }
 
 TEST(Paper, HangsAtRestForMinutes) {
-  const Deviation rest = furthest(mechanics::rest_plan(rigs::paper()), rigs::Stretch::kCompensated, 300.0);
+  const mechanics::Plan plan = rigs::paper();
+  const Deviation rest = furthest(plan, rigs::resting(plan, rigs::Stretch::kCompensated), 300.0);
   EXPECT_LT(rest.displacement_m, 1e-9);
   EXPECT_LT(rest.rotation_deg, 1e-7);
 }
@@ -62,9 +62,9 @@ TEST(Paper, HangsAtRestForMinutes) {
 // docs/design.md, fact 6: a small wrench w displaces the load by K⁻¹ w. The force rises slowly and the swing it leaves
 // is averaged out.
 TEST(Paper, WindDisplacesTheLoadByItsStiffness) {
-  const mechanics::Plan plan = mechanics::rest_plan(rigs::paper());
+  const mechanics::Plan plan = rigs::paper();
   const Eigen::Vector3d force_w_n(0.004, -0.003, 0.002);
-  const SurroundingsAt calm = rigs::planned(plan, rigs::Stretch::kCompensated);
+  const SurroundingsAt calm = rigs::resting(plan, rigs::Stretch::kCompensated);
   const double rise_s = 30.0;
   const LoadMotion start{plan.load.position_w_m, Eigen::Vector3d::Zero(), plan.load.orientation_w_b,
                          Eigen::Vector3d::Zero()};

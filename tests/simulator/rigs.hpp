@@ -75,6 +75,18 @@ inline SurroundingsAt planned(const mechanics::Plan& plan, Stretch stretch) {
   };
 }
 
+/// A plan at rest: every carrier and every winch where the plan has them at its beginning.
+inline SurroundingsAt resting(const mechanics::Plan& plan, Stretch stretch) {
+  Surroundings there;
+  there.anchors.resize(plan.carriers.size());
+  planned(plan, stretch)(0.0, there);
+  for (Anchor& anchor : there.anchors) {
+    anchor.velocity_w_m_s.setZero();
+    anchor.unstretched_rate_m_s = 0.0;
+  }
+  return fixed(std::move(there.anchors));
+}
+
 inline Anchor anchor_at(const Eigen::Vector3d& position_w_m, double unstretched_length_m) {
   return {position_w_m, Eigen::Vector3d::Zero(), unstretched_length_m, 0.0};
 }

@@ -4,18 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <limits>
 #include <map>
 
 #include "common/base/random_stream.hpp"
-#include "common/mechanics/rest_plan.hpp"
-#include "common/mechanics/transition.hpp"
+#include "tests/simulator/agents.hpp"
 #include "tests/simulator/rigs.hpp"
 
 namespace gyre::simulator {
 namespace {
 
+using rigs::Agents;
 using std::chrono::milliseconds;
 
 constexpr LocalTime kStart(std::chrono::hours(5));
@@ -25,43 +24,6 @@ Simulator make(const SimulationSettings& settings = {}, const mechanics::Plan& p
   EXPECT_TRUE(made.ok()) << made.error().text;
   return std::move(made).value();
 }
-
-/// What the paper's agents send: from rest into the motion within `engage_s`, stretch compensated.
-class Agents {
- public:
-  explicit Agents(const mechanics::Plan& plan, double engage_s = 20.0)
-      : compliance_m_n_(1.0 / plan.cable.stiffness_n_m),
-        engage_s_(engage_s),
-        rest_(mechanics::slices(mechanics::rest_plan(plan))),
-        moving_(mechanics::slices(plan)) {}
-
-  [[nodiscard]] std::size_t count() const { return moving_.size(); }
-
-  [[nodiscard]] protocol::Setpoint setpoint(std::size_t carrier, Duration since_start) const {
-    const double t_s = seconds(since_start);
-    const std::array<mechanics::Layer<double>, 2> layers = {
-        mechanics::Layer<double>{&rest_[carrier], t_s, mechanics::constant(1.0)},
-        mechanics::Layer<double>{&moving_[carrier], t_s, mechanics::smooth_step(t_s, engage_s_)}};
-    const mechanics::Reference r = mechanics::evaluate_mixture(layers.data(), layers.size());
-    const auto winch = r.length_m - compliance_m_n_ * r.tension_n;
-    protocol::Setpoint s;
-    s.carrier = moving_[carrier].id;
-    s.swarm_time = SwarmTime(since_start);
-    s.position_w_m = r.position_w_m.value;
-    s.velocity_w_m_s = r.position_w_m.first;
-    s.acceleration_w_m_s2 = r.position_w_m.second;
-    s.winch_length_m = winch.value;
-    s.winch_rate_m_s = winch.first;
-    s.winch_acceleration_m_s2 = winch.second;
-    return s;
-  }
-
- private:
-  double compliance_m_n_;
-  double engage_s_;
-  std::vector<mechanics::CarrierSlice> rest_;
-  std::vector<mechanics::CarrierSlice> moving_;
-};
 
 double displacement_m(const Simulator& simulator) {
   return (simulator.load().position_w_m - rigs::paper().load.position_w_m).norm();
@@ -110,6 +72,19 @@ TEST(Simulator, RestsUntilTheFirstSetpointAndPublishesAtItsRate) {
   }
   EXPECT_EQ(load_states, 100);
   EXPECT_LT(displacement_m(simulator), 1e-9);
+}
+
+TEST(Simulator, BeginsWhereThePlanDoes) {
+  const Agents agents(rigs::paper());
+  Simulator simulator = make();
+  Outputs out;
+  for (int i = 0; i <= 20 && !out.load; ++i) out = simulator.step(kStart + milliseconds(i), Advance{});
+  ASSERT_EQ(out.carriers.size(), agents.count());
+  for (std::size_t i = 0; i < agents.count(); ++i) {
+    const protocol::Setpoint first = agents.setpoint(i, {});
+    EXPECT_LT((out.carriers[i].position_w_m - first.position_w_m).norm(), 1e-12);
+    EXPECT_NEAR(out.carriers[i].winch_length_m, first.winch_length_m, 1e-12);
+  }
 }
 
 TEST(Simulator, FliesThePaperWithTheLoadHangingStill) {
@@ -311,6 +286,51 @@ TEST(Simulator, CarriersComeToRestWhenTheAgentsFallSilent) {
     EXPECT_NEAR(carrier.winch_rate_m_s, 0.0, 1e-12);
     EXPECT_GT(carrier.tension_n, 0.0) << "the load is still carried";
   }
+}
+
+TEST(Simulator, AVehicleThatHoldsStandsWhileTheOthersGoOnAlongTheirPaths) {
+  const Agents agents(rigs::paper(), 2.0);
+  SimulationSettings settings;
+  settings.holds = {2};
+  Simulator simulator = make(settings);
+  Duration t{};
+  std::vector<protocol::CarrierState> states;
+  const auto advance = [&] {
+    t += milliseconds(10);
+    const std::vector<protocol::CarrierState> before = std::move(states);
+    states = simulator.step(kStart + t, Advance{}).carriers;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      // 0.1 m/s braked within 0.2 s: 1 m/s2.
+      EXPECT_LT((states[i].position_w_m - before[i].position_w_m).norm(), 0.003) << i << " at " << seconds(t);
+      EXPECT_LT((states[i].velocity_w_m_s - before[i].velocity_w_m_s).norm(), 0.02) << i << " at " << seconds(t);
+    }
+  };
+  const auto lead = [&] {
+    for (std::size_t i = 0; i < agents.count(); ++i) (void)simulator.step(kStart + t, agents.setpoint(i, t));
+    advance();
+  };
+  const auto astray_m = [&](std::size_t i) {
+    return (states[i].position_w_m - agents.setpoint(i, t).position_w_m).norm();
+  };
+  for (std::size_t i = 0; i < agents.count(); ++i) {
+    (void)simulator.step(kStart, agents.status(i));
+    (void)simulator.step(kStart, agents.held(i));
+  }
+  while (t < std::chrono::seconds(5)) lead();
+  EXPECT_GT(states[1].velocity_w_m_s.norm(), 0.01) << "it has to have something to brake";
+
+  // The last setpoint held 10 ms ago.
+  while (t < milliseconds(5250)) advance();
+  const Eigen::Vector3d stands_w_m = states[1].position_w_m;
+  EXPECT_LT(states[1].velocity_w_m_s.norm(), 1e-12);
+  EXPECT_NEAR(states[1].winch_rate_m_s, 0.0, 1e-12);
+  while (t < std::chrono::seconds(9)) advance();
+  EXPECT_EQ(states[1].position_w_m, stands_w_m);
+  EXPECT_GT(astray_m(1), 0.03);
+  for (const std::size_t i : {0U, 2U, 3U}) EXPECT_LT(astray_m(i), 1e-6) << i;
+
+  while (t < std::chrono::seconds(13)) lead();
+  EXPECT_LT(astray_m(1), 1e-6) << "it has caught up";
 }
 
 TEST(Simulator, SurvivesTeleportingCarriers) {

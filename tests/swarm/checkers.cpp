@@ -6,7 +6,6 @@
 #include "common/base/text.hpp"
 #include "common/mechanics/grasp.hpp"
 #include "common/mechanics/quintic.hpp"
-#include "common/mechanics/skew.hpp"
 #include "common/mechanics/transition.hpp"
 #include "coordinator/core/coordinator.hpp"
 
@@ -21,11 +20,8 @@ constexpr double kMerging_m = 1e-6;
 const double kSilenceSeconds = seconds(agent::AgentOptions{}.stall) + 0.05;
 /// Of the clock that is read, by rounding and by reading it at two moments of one step.
 constexpr double kSwarmTimeJump_s = 2e-6;
-
-double internal_n(const mechanics::CarrierSlice& slice) {
-  return std::abs(slice.incoming.offset_n) + std::abs(slice.incoming.amplitude_n) + std::abs(slice.outgoing.offset_n) +
-         std::abs(slice.outgoing.amplitude_n);
-}
+/// The clock is slewed by 1 % at most, and its rate may be taken for one that is 5000 ppm off.
+constexpr double kSlew = 0.0155;
 
 /// A coordinator that recovers learns swarm time from messages: as late as they were, and as wrong as their senders.
 constexpr Duration kRecoveryError = std::chrono::milliseconds(50);
@@ -45,83 +41,17 @@ double reach_m_of(const LoadWithMotions& load) {
   return reach_m;
 }
 
-/// How much each plan counts at `now`.
-struct Share {
-  protocol::TimedPlan plan;
-  double weight;
-};
-std::vector<Share> shares(const protocol::Course& course, SwarmTime now) {
-  std::vector<Share> out{{course.base, 1.0}};
-  for (const protocol::Transition& t : course.transitions) {
-    if (t.stage != protocol::Stage::kGo || now <= t.start) continue;
-    const double x = mechanics::smooth_step(seconds(now - t.start), seconds(t.duration)).value;
-    for (Share& share : out) share.weight *= 1.0 - x;
-    out.push_back({t.to, x});
-  }
-  return out;
-}
-
-double share_of(const std::vector<Share>& all, const protocol::TimedPlan& plan) {
-  double sum = 0.0;
-  for (const Share& share : all) {
-    if (share.plan == plan) sum += share.weight;
-  }
-  return sum;
-}
-
 }  // namespace
 
-double difference(const protocol::Course& a, const protocol::Course& b, SwarmTime now) {
-  if (a.base == b.base && a.transitions.empty() && b.transitions.empty()) return 0.0;
-  const auto of_a = shares(a, now);
-  const auto of_b = shares(b, now);
-  double worst = 0.0;
-  for (const auto* all : {&of_a, &of_b}) {
-    for (const Share& share : *all)
-      worst = std::max(worst, std::abs(share_of(of_a, share.plan) - share_of(of_b, share.plan)));
-  }
-  return worst;
-}
-
-double half_applied_bound(double duration_s) {
-  const coordinator::CoordinatorOptions options;
-  // One beacon period and one control period until it is seen and flown, and a few lost beacons.
-  const double begins_s = seconds(options.start_check + options.agreement.go_margin) + 0.3;
-  double worst = 0.0;
-  for (double t_s = 0.0; t_s < begins_s + seconds(options.turning_back); t_s += 0.01) {
-    const double forth = mechanics::smooth_step(t_s, duration_s).value;
-    const double back = mechanics::smooth_step(t_s - begins_s, seconds(options.turning_back)).value;
-    worst = std::max(worst, forth * (1.0 - back));
-  }
-  return worst;
-}
-
-Checkers::Checkers(const LoadWithMotions& load, const Scenario& scenario) : agents_(load.size()) {
+Checkers::Checkers(const LoadWithMotions& load, const Scenario& scenario)
+    : agents_(load.size()), equilibrium_(load), budget_share_(scenario.residual_budget) {
   const mechanics::Plan& first = load.motions.front();
-  weight_n_ = first.load.mass_kg * first.gravity_m_s2;
-  arms_w_m_ = lever_arms(first);
-  for (const Eigen::Vector3d& arm : arms_w_m_) {
-    attachments_w_m_.emplace_back(first.load.position_w_m + arm);
-    arm_m_ = std::max(arm_m_, arm.norm());
-  }
-  std::vector<double> internal(load.size(), 0.0);
-  double rate_rad_s = 0.0;
-  for (const mechanics::Plan& plan : load.motions) {
-    const auto all = slices(plan);
-    rate_n_per_s_ =
-        std::max(rate_n_per_s_, mechanics::kSkewShare * weight_n_ / mechanics::skew_budget_s(all, weight_n_));
-    rate_rad_s = std::max(rate_rad_s, plan.cycle.rate_rad_s);
-    for (std::size_t i = 0; i < all.size(); ++i) internal[i] = std::max(internal[i], internal_n(all[i]));
-  }
-  for (const double n : internal) change_n_ += 2.0 * n;
-  shortest_transition_s_ = std::min(seconds(scenario.transition), 2.0);
-  curvature_n_s2_ =
-      change_n_ * (rate_rad_s * rate_rad_s + mechanics::kStepCurvaturePeak / std::pow(shortest_transition_s_, 2) +
-                   2.0 * rate_rad_s * mechanics::kStepSlopePeak / shortest_transition_s_);
+  for (const Eigen::Vector3d& arm : lever_arms(first)) attachments_w_m_.emplace_back(first.load.position_w_m + arm);
   // Transitions here are not rehearsed: they may ask for more than the limits, as much as their shortness makes them.
   const double travel_m = 2.0 * reach_m_of(load);
-  acceleration_m_s2_ = 2.0 * load.vehicle.acceleration_max_m_s2.value() +
-                       mechanics::kStepCurvaturePeak * travel_m / std::pow(shortest_transition_s_, 2);
+  acceleration_m_s2_ =
+      2.0 * load.vehicle.acceleration_max_m_s2.value() +
+      mechanics::kStepCurvaturePeak * travel_m / std::pow(std::min(seconds(scenario.transition), 2.0), 2);
 }
 
 void Checkers::report(Finding::Kind kind, TrueTime at, const std::string& rule, const std::string& text) {
@@ -147,18 +77,22 @@ void Checkers::status(std::size_t agent, TrueTime now, const protocol::AgentStat
   a.uncertainty = status.clock_uncertainty;
 }
 
+void Checkers::found_anew(std::size_t agent, TrueTime now) {
+  agents_[agent].found_anew = now;
+  agents_[agent].last.reset();
+  if (!stopped_ && !lies_)
+    report(Finding::Kind::kSafety, now, "swarm time",
+           text("agent at %zu found it anew, though no clock jumped", agent));
+}
+
 void Checkers::setpoint(std::size_t agent, TrueTime now, const protocol::Setpoint& setpoint,
-                        const protocol::CarrierState& vehicle, const protocol::Course& course) {
+                        const protocol::CarrierState& vehicle) {
   Agent& a = agents_[agent];
   if (!a.last || seconds(now - a.last->at) > kSilenceSeconds) check_return(now, setpoint, vehicle);
   ++extremes_.setpoints;
   a.before = a.last;
   a.last = Sample{now, setpoint};
-  a.changed = 0.0;
-  if (!(a.flown == course)) {
-    if (a.before) a.changed = difference(a.flown, course, setpoint.swarm_time);
-    a.flown = course;
-  }
+  equilibrium_.commanded(agent, now, setpoint);
   if (a.before) check_continuity(now, a, *a.before, *a.last);
 }
 
@@ -181,8 +115,7 @@ void Checkers::check_continuity(TrueTime now, const Agent& /*agent*/, const Samp
   if (dt_s < 0.0)
     report(Finding::Kind::kSafety, now, "swarm time",
            text("runs backwards by %.3g ms at agent %u", -1e3 * dt_s, s.carrier));
-  // The clock is slewed by 1 % at most, and the quartz and its correction are off by 500 ppm at most.
-  if (std::abs(dt_s - truly_s) > 0.0105 * truly_s + kSwarmTimeJump_s) {
+  if (!lies_ && std::abs(dt_s - truly_s) > kSlew * truly_s + kSwarmTimeJump_s) {
     report(Finding::Kind::kSafety, now, "swarm time",
            text("jumps by %.3g ms in %.3g ms at agent %u", 1e3 * (dt_s - truly_s), 1e3 * truly_s, s.carrier));
   }
@@ -198,7 +131,7 @@ void Checkers::check_continuity(TrueTime now, const Agent& /*agent*/, const Samp
   const double velocity_bound = bound_m_s2 * truly_s + kRounding;
   const double speed_m_s = std::max(s.velocity_w_m_s.norm(), p.velocity_w_m_s.norm());
   const double position_bound =
-      0.5 * bound_m_s2 * truly_s * truly_s + 0.0105 * truly_s * speed_m_s + kSwarmTimeJump_s * speed_m_s + kRounding;
+      0.5 * bound_m_s2 * truly_s * truly_s + kSlew * truly_s * speed_m_s + kSwarmTimeJump_s * speed_m_s + kRounding;
   const double share = std::max(velocity_step / velocity_bound, position_step / position_bound);
   extremes_.step_of_bound = std::max(extremes_.step_of_bound, share);
   if (share > 1.0) {
@@ -209,16 +142,15 @@ void Checkers::check_continuity(TrueTime now, const Agent& /*agent*/, const Samp
   }
 }
 
-/// All agents' forces and clocks at one true time, between their setpoints.
+/// All agents' clocks at one true time, between their setpoints.
 struct Checkers::Moment {
   TrueTime at{};
-  SwarmTime swarm{};  ///< as the first of them has it
-  std::vector<Eigen::Vector3d> forces_w_n;
   std::vector<Duration> clocks;  ///< swarm − true
   double gap_s = 0.0;            ///< longest between two setpoints
 };
 
 void Checkers::instant(TrueTime now) {
+  check_equilibrium(now);
   disagreement_.reset();
   merging_now_ = false;
   Moment m;
@@ -232,9 +164,6 @@ void Checkers::instant(TrueTime now) {
     const Sample& s = *agents_[i].last;
     m.gap_s = std::max({m.gap_s, seconds(s.at - p.at), seconds(m.at - p.at), seconds(now - s.at)});
     const double x = seconds(m.at - p.at) / seconds(s.at - p.at);
-    const Eigen::Vector3d before_n = p.setpoint.tension_n * p.setpoint.direction_w;
-    const Eigen::Vector3d last_n = s.setpoint.tension_n * s.setpoint.direction_w;
-    m.forces_w_n.emplace_back(before_n + x * (last_n - before_n));
     const double clock_s =
         seconds(p.setpoint.swarm_time.time_since_epoch() - s.setpoint.swarm_time.time_since_epoch() + (s.at - p.at)) *
         (1.0 - x);
@@ -245,39 +174,8 @@ void Checkers::instant(TrueTime now) {
     extremes_.merging += gap_m > kMerging_m ? 1 : 0;
     extremes_.merging_m = std::max(extremes_.merging_m, gap_m);
   }
-  constexpr double kHung_s = 0.05;  // somebody sends no setpoints: its force between them is anybody's guess
-  if (m.gap_s > kHung_s) return;
-  m.swarm = SwarmTime(m.at.time_since_epoch() + m.clocks.front());
-  check_clocks(m);
-
-  double half_applied = 0.0;
-  double changed = 0.0;
-  double duration_s = 1e9;
-  double pace_per_s = 0.0;
-  for (const Agent& a : agents_) {
-    half_applied = std::max(half_applied, difference(agents_.front().flown, a.flown, m.swarm));
-    changed = std::max(changed, a.changed);
-    for (const protocol::Transition& t : a.flown.transitions) {
-      duration_s = std::min(duration_s, seconds(t.duration));
-      pace_per_s = std::max(pace_per_s, static_cast<double>(a.flown.transitions.size()) * mechanics::kStepSlopePeak /
-                                            seconds(t.duration));
-    }
-  }
-  for (const Agent& a : agents_) {
-    if (half_applied == 0.0) break;
-    for (const Agent& b : agents_) half_applied = std::max(half_applied, difference(a.flown, b.flown, m.swarm));
-  }
-  extremes_.half_applied = std::max(extremes_.half_applied, half_applied);
-  calm_ = calm_ || (m.at > calm_from_ && half_applied < 1e-6);
-  if (calm_) {
-    extremes_.half_applied_in_calm = std::max(extremes_.half_applied_in_calm, half_applied);
-    if (half_applied > half_applied_bound(duration_s) + 1e-3) {
-      report(Finding::Kind::kSafety, now, "half applied",
-             text("%.3g of a transition of %.3g s is flown by some and not by others (bound %.3g)", half_applied,
-                  duration_s, half_applied_bound(duration_s)));
-    }
-  }
-  check_equilibrium(m, half_applied + changed, pace_per_s);
+  constexpr double kHung_s = 0.05;  // somebody sends no setpoints: nobody knows his clock
+  if (m.gap_s <= kHung_s) check_clocks(m);
 }
 
 void Checkers::check_clocks(const Moment& m) {
@@ -289,7 +187,9 @@ void Checkers::check_clocks(const Moment& m) {
   if (early.uncertainty == Duration::max() || late.uncertainty == Duration::max() || lies_) return;
   // They claim three standard deviations, which are exceeded now and then.
   Duration claimed = (early.uncertainty + late.uncertainty) * 13 / 10 + std::chrono::microseconds(20);
-  const auto settling = [&m](const Agent& a) { return m.at < a.term_since + kRecovery; };
+  const auto settling = [&m](const Agent& a) {
+    return m.at < a.term_since + kRecovery || (a.found_anew != TrueTime::min() && m.at < a.found_anew + kRecovery);
+  };
   if (std::any_of(agents_.begin(), agents_.end(), settling)) return;
   if (early.term != late.term) claimed += kRecoveryError;
   if (*disagreement_ > claimed) {
@@ -299,25 +199,15 @@ void Checkers::check_clocks(const Moment& m) {
   }
 }
 
-void Checkers::check_equilibrium(const Moment& m, double half_applied, double pace_per_s) {
-  Eigen::Vector3d force = Eigen::Vector3d(0.0, 0.0, -weight_n_);
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < agents_.size(); ++i) {
-    force += m.forces_w_n[i];
-    moment += arms_w_m_[i].cross(m.forces_w_n[i]);
-  }
-  const double rate = rate_n_per_s_ + 0.5 * pace_per_s * change_n_;
-  const double between = 0.5 * m.gap_s * m.gap_s * curvature_n_s2_;  // forces are drawn as lines between setpoints
-  const double bound_n = rate * seconds(*disagreement_) + half_applied * change_n_ + between + 1e-9 * weight_n_;
-  const double residual_n = std::max(force.norm(), moment.norm() / arm_m_);
+void Checkers::check_equilibrium(TrueTime now) {
+  const auto share = equilibrium_.residual_share();
+  if (!share) return;
   ++extremes_.instants;
-  extremes_.residual_share = std::max(extremes_.residual_share, residual_n / weight_n_);
-  extremes_.residual_of_bound = std::max(extremes_.residual_of_bound, residual_n / bound_n);
-  if (residual_n > bound_n) {
-    report(
-        Finding::Kind::kSafety, m.at, "equilibrium",
-        text("residual %.4g N, %.3g of the weight; the clocks (%.3g ms) and what is half applied (%.3g) explain %.4g N",
-             residual_n, residual_n / weight_n_, 1e3 * seconds(*disagreement_), half_applied, bound_n));
+  extremes_.residual_share = std::max(extremes_.residual_share, *share);
+  extremes_.residual_of_budget = std::max(extremes_.residual_of_budget, *share / budget_share_);
+  if (*share > budget_share_) {
+    report(Finding::Kind::kSafety, now, "equilibrium",
+           text("%.3g of the weight is not held, this flight's faults may cost %.3g", *share, budget_share_));
   }
 }
 

@@ -21,7 +21,10 @@ bool fly_until(Swarm& swarm, Duration within, Done done) {
 void find_together(Swarm& swarm, FlightReport& report) {
   const TrueTime healed = swarm.now();
   std::string why;
-  const bool agreed = fly_until(swarm, kAgreeWithin, [&] { return swarm.agrees(kClocksWithin, &why); });
+  const bool agreed = fly_until(swarm, kAgreeWithin, [&] {
+    swarm.do_as_told();
+    return swarm.agrees(kClocksWithin, &why);
+  });
   report.agreed_after = swarm.now() - healed;
   if (!agreed) {
     swarm.checkers().report(Finding::Kind::kLiveness, swarm.now(), "agreement",

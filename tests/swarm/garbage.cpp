@@ -9,6 +9,7 @@ namespace gyre::swarm {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
 constexpr Duration kForever = Duration(std::numeric_limits<Duration::rep>::max() / 2);
 
 class Breaker {
@@ -16,7 +17,23 @@ class Breaker {
   explicit Breaker(RandomStream& random) : random_(random) {}
 
   protocol::Beacon operator()(protocol::Beacon b) {
-    switch (pick(4)) {
+    switch (pick(9)) {
+      case 4:
+        b.sequence = count();
+        break;
+      case 5:
+        b.term = b.course.term = count();
+        if (b.proposal) b.proposal->term = b.term;
+        break;
+      case 6:
+        b.course.revision = count();
+        break;
+      case 7:
+        if (b.proposal) b.proposal->revision = count();
+        break;
+      case 8:
+        b.course.base.number.revision = count();
+        break;
       case 0:
         b.swarm_time += kForever - b.swarm_time.time_since_epoch();
         break;
@@ -34,7 +51,13 @@ class Breaker {
     return b;
   }
   protocol::PlanOffer operator()(protocol::PlanOffer o) {
-    if (o.slices.empty() || pick(3) == 0) {
+    if (const auto which = pick(8); which == 0) {
+      o.sequence = count();
+    } else if (which == 1) {
+      o.term = count();
+    } else if (which == 2 && !o.slices.empty()) {
+      o.slices.front().number.revision = kMost;
+    } else if (o.slices.empty() || which == 3) {
       o.carrier = 99;
     } else if (pick(2) == 0) {
       o.slices.front().slice.particular_force_w_n.x() = kNaN;
@@ -53,11 +76,18 @@ class Breaker {
     return h;
   }
   protocol::TimeRequest operator()(protocol::TimeRequest r) {
-    r.carrier = 99;
+    (pick(2) == 0 ? r.incarnation : r.sequence) = kMost;
+    if (pick(2) == 0) r.carrier = 99;
     return r;
   }
   protocol::TimeReply operator()(protocol::TimeReply r) {
-    switch (pick(4)) {
+    switch (pick(6)) {
+      case 4:
+        r.sequence = kMost;
+        break;
+      case 5:
+        r.term = count();
+        break;
       case 0:
         r.carrier = 99;
         break;
@@ -75,7 +105,25 @@ class Breaker {
     return r;
   }
   protocol::AgentStatus operator()(protocol::AgentStatus s) {
-    switch (pick(3)) {
+    switch (pick(9)) {
+      case 3:
+        s.sequence = count();
+        break;
+      case 4:
+        s.term = count();
+        break;
+      case 5:
+        s.confirmed = count();
+        break;
+      case 6:
+        s.incarnation = kMost;
+        break;
+      case 7:
+        s.course.revision = kMost;
+        break;
+      case 8:
+        s.course.term = kMost;
+        break;
       case 0:
         s.carrier = 99;
         break;
@@ -98,6 +146,8 @@ class Breaker {
   }
 
  private:
+  /// The largest there is, and some that only nobody would have come to.
+  std::uint64_t count() { return pick(2) == 0 ? kMost : std::uint64_t{1} << (20 + pick(44)); }
   std::uint64_t pick(std::uint64_t count) { return random_.next() % count; }
   RandomStream& random_;
 };

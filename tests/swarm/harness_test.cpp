@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "common/mechanics/reference.hpp"
 #include "tests/swarm/flight.hpp"
 
 namespace gyre::swarm {
 namespace {
-
-using protocol::Stage;
 
 // No core can be told a wall clock: its time is a type of its own, which no other clock converts to.
 static_assert(!std::is_constructible_v<LocalTime, std::chrono::system_clock::time_point>);
@@ -57,24 +56,37 @@ TEST(Judges, SeeAnAgentThatFliesItsOwnCourse) {
   Sabotage s;
   s.agent_says = [](std::size_t agent, TrueTime now, agent::Outputs& out) {
     if (agent != 1 || !at_or_after(now, 10.0) || !out.setpoint) return;
-    const Eigen::AngleAxisd turn(0.02, Eigen::Vector3d::UnitX());
-    out.setpoint->direction_w = turn * out.setpoint->direction_w;
+    out.setpoint->position_w_m.x() += 0.02 * out.setpoint->cable_length_m;
   };
   EXPECT_TRUE(finds(fly(steady(), s), "equilibrium"));
 }
 
-TEST(Judges, SeeAnAgentThatIgnoresStages) {
+TEST(Judges, SeeAnAgentThatTakesAProposalForACourse) {
   Sabotage s;
-  // It takes every proposal for a go, whose start is long past.
-  s.agent_hears = [](std::size_t agent, TrueTime now, agent::Event& event) {
+  // Before the others begin: it is ahead of them by as much for good.
+  s.agent_hears = [](std::size_t agent, TrueTime, agent::Event& event) {
     auto* beacon = std::get_if<protocol::Beacon>(&event);
-    if (agent != 0 || beacon == nullptr || !at_or_after(now, 9.0)) return;
-    for (protocol::Transition& t : beacon->course.transitions) {
-      t.start -= t.duration / 2;
-      t.stage = Stage::kGo;
-    }
+    if (agent != 0 || beacon == nullptr || !beacon->proposal) return;
+    for (protocol::Ramp& ramp : beacon->proposal->pace.ramps) ramp.start -= std::chrono::milliseconds(500);
+    beacon->course = *beacon->proposal;
   };
-  EXPECT_TRUE(finds(fly(calm(), s), "half applied"));
+  EXPECT_TRUE(finds(fly(steady(), s), "equilibrium"));
+}
+
+TEST(Judges, SeeAnAgentThatStopsLaterThanTheOthers) {
+  Scenario scenario = steady();
+  Action kill;
+  kill.at = TrueTime(from_seconds(12.0));
+  kill.deed = Deed::kKill;
+  kill.process = 0;
+  scenario.actions.insert(std::prev(scenario.actions.end()), kill);
+  EXPECT_TRUE(fly(scenario).good());
+  Sabotage s;
+  s.agent_hears = [](std::size_t agent, TrueTime, agent::Event& event) {
+    auto* beacon = std::get_if<protocol::Beacon>(&event);
+    if (agent == 1 && beacon != nullptr && beacon->course.lease) *beacon->course.lease += std::chrono::seconds(2);
+  };
+  EXPECT_TRUE(finds(fly(scenario, s), "equilibrium"));
 }
 
 TEST(Judges, SeeASetpointThatStepsByAMillimetre) {
@@ -180,27 +192,25 @@ TEST(Judges, SeeAnAgentThatNeverMergesBack) {
   EXPECT_TRUE(finds(fly(steady(), s), "merging"));
 }
 
-TEST(HalfAppliedBound, IsSmallForLongTransitionsAndGrowsForShortOnes) {
-  EXPECT_LT(half_applied_bound(5.0), 0.2);
-  EXPECT_LT(half_applied_bound(60.0), 1e-3);
-  EXPECT_GT(half_applied_bound(1.0), half_applied_bound(2.0));
-  EXPECT_LE(half_applied_bound(0.5), 1.0);
-}
-
-TEST(Difference, CountsWhatOneFliesAndTheOtherDoesNot) {
-  const protocol::TimedPlan rest{{1, 1}, SwarmTime{}};
-  const protocol::TimedPlan motion{{1, 2}, SwarmTime{}};
-  protocol::Course before{1, rest, {}};
-  protocol::Course during = before;
-  during.transitions.push_back({1, motion, SwarmTime{}, std::chrono::seconds(4), Stage::kGo});
-  protocol::Course after{2, motion, {}};
-  const SwarmTime half(std::chrono::seconds(2));
-  const SwarmTime end(std::chrono::seconds(4));
-  EXPECT_EQ(difference(before, before, half), 0.0);
-  EXPECT_NEAR(difference(before, during, half), 0.5, 1e-12);
-  EXPECT_EQ(difference(before, during, SwarmTime{}), 0.0);
-  EXPECT_EQ(difference(during, after, end), 0.0) << "settled or not, it is the same motion";
-  EXPECT_EQ(difference(before, after, half), 1.0);
+TEST(EquilibriumJudge, KnowsForcesAndTheWeightAndNothingElse) {
+  const LoadWithMotions& load = loads().front();
+  EquilibriumJudge judge(load);
+  const auto slices = mechanics::slices(load.motions.front());
+  const auto command = [&](std::size_t i, double at_s, double plan_s, double tension_share) {
+    const mechanics::Reference r = mechanics::evaluate(slices[i], plan_s);
+    protocol::Setpoint s;
+    s.position_w_m = r.position_w_m.value;
+    s.tension_n = tension_share * r.tension_n.value;
+    judge.commanded(i, TrueTime(from_seconds(at_s)), s);
+  };
+  for (std::size_t i = 0; i < load.size(); ++i) command(i, 1.0, 7.0, 1.0);
+  EXPECT_FALSE(judge.residual_share()) << "a line takes two points";
+  for (std::size_t i = 0; i < load.size(); ++i) command(i, 1.01, 7.01, 1.0);
+  EXPECT_LT(judge.residual_share().value(), 1e-6);
+  for (std::size_t i = 0; i < load.size(); ++i) command(i, 1.02, i == 0 ? 17.02 : 7.02, 1.0);
+  EXPECT_GT(judge.residual_share().value(), 0.05) << "one is ten seconds ahead";
+  for (std::size_t i = 0; i < load.size(); ++i) command(i, 1.03, 7.03, i == 0 ? 1.02 : 1.0);
+  EXPECT_GT(judge.residual_share().value(), 4e-3) << "one pulls too hard";
 }
 
 TEST(VirtualClock, ShowsItsDriftAndFindsBack) {

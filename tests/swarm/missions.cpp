@@ -6,7 +6,6 @@
 #include "common/base/angle.hpp"
 #include "common/base/random_stream.hpp"
 #include "common/mechanics/certificate.hpp"
-#include "common/mechanics/rest_plan.hpp"
 
 namespace gyre::swarm {
 namespace {
@@ -124,7 +123,6 @@ LoadWithMotions with_room(std::vector<Plan> motions) {
   out.vehicle = room_for(motions);
   for (Plan& plan : motions) plan.limits = out.vehicle;
   out.motions = std::move(motions);
-  out.rest = mechanics::rest_plan(out.motions.front());
   return out;
 }
 

@@ -10,7 +10,6 @@ namespace gyre::swarm {
 /// One load with motions that all hold it and are all admissible: one to begin with, the others to retune to.
 struct LoadWithMotions {
   std::vector<mechanics::Plan> motions;
-  mechanics::Plan rest;       ///< of the first of them: where a flight begins
   mechanics::Limits vehicle;  ///< what every carrier's vehicle can do: enough for each motion
 
   [[nodiscard]] std::size_t size() const { return motions.front().carriers.size(); }

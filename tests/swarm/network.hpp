@@ -4,6 +4,7 @@
 // Weather is the same everywhere and changes when a fault begins or ends; distances (delays that differ by direction)
 // belong to a process and stay. Every mishap is counted: a fault that never happened proves nothing.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -36,6 +37,11 @@ class Network {
   Weather weather;
   /// group[p]: packets pass only within a group. Empty: no partition.
   std::vector<int> groups;
+  /// Nothing passes from the one to the other.
+  struct Cut {
+    std::size_t from = 0, to = 0;
+  };
+  std::vector<Cut> cuts;
 
   /// When the copies of a packet arrive that is sent now: none, one or two.
   struct Fate {
@@ -52,7 +58,8 @@ class Network {
 
  private:
   [[nodiscard]] bool parted(std::size_t from, std::size_t to) const {
-    return !groups.empty() && groups[from] != groups[to];
+    if (!groups.empty() && groups[from] != groups[to]) return true;
+    return std::any_of(cuts.begin(), cuts.end(), [&](const Cut& c) { return c.from == from && c.to == to; });
   }
   [[nodiscard]] Duration delay(std::size_t from, std::size_t to);
 

@@ -37,6 +37,8 @@ class Writer {
   void fault(double begin_s, double end_s);
   void kill(double begin_s, double end_s);
   void order(double at_s);
+  void costs(double share) { s_.residual_budget += share; }
+  void sum_up();
 
   Scenario finish(double heal_s) {
     s_.heal = TrueTime(from_seconds(heal_s));
@@ -69,10 +71,11 @@ void Writer::start_all(double within_s) {
 
 void Writer::kill(double begin_s, double end_s) {
   // Agents are lost more often than they come back in time; a supervisor brings a coordinator back at once or late.
+  costs(cost::kProcess);
   const bool coordinator = chance(0.5);
   const std::size_t process = coordinator ? 0 : any_agent();
   if (coordinator && chance(0.5)) {
-    add(begin_s, Deed::kKillInTransition).offset = span(-0.6, 2.0);
+    add(begin_s, Deed::kKillInChange).offset = span(-0.6, 2.0);
   } else {
     add(begin_s, Deed::kKill).process = process;
   }
@@ -94,6 +97,9 @@ void Writer::fault(double begin_s, double end_s) {
       weather.jitter = from_seconds(draw(0.0, 1.0) < 0.3 ? draw(1e-3, 2e-2) : draw(1e-5, 1e-3));
       if (chance(0.3)) weather.garbage = draw(0.0, 0.2);
       if (chance(0.2)) weather.lies = draw(0.0, 0.1);
+      const bool bad = weather.loss > 0.3 || weather.bursts_per_s > 0.0 || weather.overtaken > 0.0 ||
+                       weather.lies > 0.0 || weather.jitter > std::chrono::milliseconds(5);
+      costs(bad ? cost::kLink : cost::kProcess);
       add(begin_s, Deed::kWeather).weather = weather;
       add(until_s, Deed::kWeather);
       break;
@@ -101,6 +107,7 @@ void Writer::fault(double begin_s, double end_s) {
     case 2: {
       std::vector<int> groups;
       for (std::size_t i = 0; i < kCoordinators + carriers(); ++i) groups.push_back(chance(0.5) ? 1 : 0);
+      costs(cost::kLink);
       add(begin_s, Deed::kPartition).groups = groups;
       add(until_s, Deed::kPartition);
       break;
@@ -110,12 +117,14 @@ void Writer::fault(double begin_s, double end_s) {
       kill(begin_s, end_s);
       break;
     case 5: {
+      costs(cost::kProcess);
       Action& suspend = add(begin_s, Deed::kSuspend);
       suspend.process = chance(0.3) ? 0 : any_agent();
       suspend.length = span(0.1, 3.0);
       break;
     }
     case 6: {
+      costs(cost::kProcess);
       Action& stall = add(begin_s, Deed::kStall);
       stall.process = chance(0.3) ? 0 : any_agent();
       stall.length = chance(0.7) ? span(0.02, 0.3) : span(0.3, 2.0);
@@ -125,6 +134,20 @@ void Writer::fault(double begin_s, double end_s) {
       if (chance(0.5)) add(begin_s, Deed::kStart).process = 1;  // a second coordinator by mistake
       break;
   }
+}
+
+/// A plan is known to the coordinator, to each agent for itself, and to its neighbour. From the mission's file anybody
+/// learns the first one again, but no other.
+void Writer::sum_up() {
+  bool retuned = false;
+  bool coordinator_died = false;
+  std::size_t agents_died = 0;
+  for (const Action& a : s_.actions) {
+    retuned = retuned || a.deed == Deed::kRetune;
+    coordinator_died = coordinator_died || a.deed == Deed::kKillInChange || (a.deed == Deed::kKill && a.process == 0);
+    agents_died += a.deed == Deed::kKill && a.process >= kCoordinators ? 1 : 0;
+  }
+  if (coordinator_died && agents_died > 0 && (retuned || agents_died >= carriers())) costs(cost::kForgotten);
 }
 
 void Writer::order(double at_s) {
@@ -150,7 +173,7 @@ Scenario scenario(std::uint64_t seed) {
   w.clocks();
   w.start_all(w.chance(0.8) ? 0.5 : 4.0);
   Scenario& s = w.scenario();
-  s.on_agent_loss = w.chance(0.5) ? protocol::AgentLoss::kFreeze : protocol::AgentLoss::kContinue;
+  if (w.chance(0.5)) s.silence.stop_after.reset();
   s.transition = w.span(2.0, 6.0);
   s.engage_when_ready = w.chance(0.6);
   s.rehearse = w.chance(0.005);
@@ -160,6 +183,7 @@ Scenario scenario(std::uint64_t seed) {
   for (std::size_t i = 0; i < faults; ++i) w.fault(w.draw(begin_s, heal_s), heal_s);
   const std::size_t orders = w.pick(5);
   for (std::size_t i = 0; i < orders; ++i) w.order(w.draw(3.0, heal_s));
+  w.sum_up();
   return w.finish(heal_s);
 }
 
@@ -183,14 +207,18 @@ const char* name(Deed deed) {
       return "partition";
     case Deed::kKill:
       return "kill";
-    case Deed::kKillInTransition:
-      return "kill in the next transition";
+    case Deed::kKillInChange:
+      return "kill in the next change";
     case Deed::kStart:
       return "start";
     case Deed::kSuspend:
       return "suspend";
     case Deed::kStall:
       return "stall";
+    case Deed::kClockStop:
+      return "clock stops";
+    case Deed::kCut:
+      return "cut";
     case Deed::kCommand:
       return "command";
     case Deed::kRetune:
@@ -220,13 +248,18 @@ std::string describe(const Action& a) {
       if (a.groups.empty()) return out + " ends";
       for (const int group : a.groups) out += text(" %d", group);
       return out;
-    case Deed::kKillInTransition:
+    case Deed::kKillInChange:
       return out + text(", %.3f s after its start", seconds(a.offset));
     case Deed::kKill:
     case Deed::kStart:
       return out + process();
+    case Deed::kCut:
+      for (const Network::Cut& cut : a.cuts) out += text(" %zu->%zu", cut.from, cut.to);
+      return out;
     case Deed::kSuspend:
     case Deed::kStall:
+      return out + process() + text(" for %.3f s", seconds(a.length));
+    case Deed::kClockStop:
       return out + process() + text(" for %.3f s", seconds(a.length));
     case Deed::kCommand:
       return out + text(" %d", static_cast<int>(a.command));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/text.hpp"
+#include "common/protocol/follow.hpp"
 #include "tests/swarm/swarm_parts.hpp"
 
 namespace gyre::swarm {
@@ -47,12 +48,16 @@ Swarm::Swarm(const Scenario& scenario, const Sabotage& sabotage, Trace trace)
       }
     }
   }
-  const auto still = mechanics::slices(load_.rest);
+  const auto still = mechanics::slices(load_.motions.front());
   for (std::size_t i = 0; i < still.size(); ++i) {
     const mechanics::Reference r = mechanics::evaluate(still[i], 0.0);
-    vehicles_[i].last.position_w_m = r.position_w_m.value;
-    vehicles_[i].last.winch_length_m = r.length_m.value - r.tension_n.value / still[i].cable_stiffness_n_m;
+    protocol::Setpoint rest;
+    rest.position_w_m = r.position_w_m.value;
+    rest.tension_n = r.tension_n.value;
+    rest.winch_length_m = protocol::winch_length(r, still[i].cable_stiffness_n_m).value;
+    vehicles_[i].place(rest);
   }
+  for (const std::size_t agent : scenario_.holding) vehicles_[agent].holds();
   for (std::size_t i = 0; i < scenario_.actions.size(); ++i)
     schedule({scenario_.actions[i].at, 0, Happening::kAction, i, 0, nullptr});
   schedule({TrueTime(kObservation), 0, Happening::kObservation, 0, 0, nullptr});
@@ -107,7 +112,7 @@ void Swarm::happen(const Happening& h) {
       return;
     case Happening::kKill:
       if (processes_[h.index].running() && !healed_) {
-        ++faults_.killed_in_transition;
+        ++faults_.killed_in_change;
         kill(h.index);
       }
       return;
@@ -127,14 +132,13 @@ void Swarm::act(const Action& a) {
     case Deed::kPartition:
       network_.groups = a.groups;
       if (!a.groups.empty()) ++faults_.partitions;
-      checkers_.disturbed(now_ + kAftermath);
       return;
     case Deed::kKill:
       if (!processes_[a.process].running()) return;
       if (is_agent(a.process) && untroubled()) loss_ = Loss{a.process, now_};
       kill(a.process);
       return;
-    case Deed::kKillInTransition:
+    case Deed::kKillInChange:
       kill_after_start_ = a.offset;
       return;
     case Deed::kStart:
@@ -146,6 +150,16 @@ void Swarm::act(const Action& a) {
       if (!processes_[a.process].running() || now_ < processes_[a.process].held_until) return;
       ++(a.deed == Deed::kSuspend ? faults_.suspended : faults_.stalled);
       return hold(a.process, a.length, a.deed == Deed::kSuspend);
+    case Deed::kClockStop:
+      if (!processes_[a.process].running() || now_ < processes_[a.process].held_until) return;
+      ++faults_.clock_stops;
+      checkers_.clock_stopped(is_agent(a.process) ? std::optional(a.process - kCoordinators) : std::nullopt);
+      hold(a.process, a.length, true);
+      processes_[a.process].jumped -= a.length;
+      return;
+    case Deed::kCut:
+      network_.cuts = a.cuts;
+      return;
     case Deed::kCommand:
       return command(a.command);
     case Deed::kRetune: {
@@ -161,8 +175,8 @@ void Swarm::act(const Action& a) {
       healed_ = true;
       network_.weather = Weather{};
       network_.groups.clear();
+      network_.cuts.clear();
       kill_after_start_.reset();
-      checkers_.disturbed(now_ + kAftermath);
       for (std::size_t p = kCoordinators; p < processes_.size(); ++p) {
         if (!processes_[p].running()) start(p);
       }
@@ -174,7 +188,7 @@ void Swarm::act(const Action& a) {
 // --------------------------------------------------------------------------------------------------- life and death
 
 Duration Swarm::clock_error(std::size_t process) const {
-  return sabotage_.clock_error ? sabotage_.clock_error(process, now_) : Duration::zero();
+  return processes_[process].jumped + (sabotage_.clock_error ? sabotage_.clock_error(process, now_) : Duration::zero());
 }
 
 LocalTime Swarm::local(std::size_t process) {
@@ -186,7 +200,7 @@ coordinator::Job Swarm::job(std::size_t motion) const {
   job.name = text("motion %zu", motion);
   job.plan = motion < load_.motions.size() ? load_.motions[motion] : too_fast(load_.motions.front());
   if (!scenario_.rehearse) job.transition = scenario_.transition;  // a rehearsal chooses the duration itself
-  job.on_agent_loss = scenario_.on_agent_loss;
+  job.silence = scenario_.silence;
   return job;
 }
 
@@ -197,7 +211,6 @@ void Swarm::start(std::size_t process) {
   p.held_until = TrueTime{};
   p.inbox.clear();
   p.sends_setpoints = false;
-  checkers_.disturbed(now_ + kAftermath);
   say([&] { return p.name(process) + " starts"; });
   if (is_agent(process)) {
     agent::AgentOptions options;
@@ -233,7 +246,6 @@ void Swarm::kill(std::size_t process) {
     ++faults_.coordinators_killed;
     loss_.reset();  // nobody is left to name it
   }
-  checkers_.disturbed(now_ + kAftermath);
   for (Channel& channel : channels_) {
     if (channel.from != process) continue;
     channel.latest.reset();
@@ -256,7 +268,6 @@ void Swarm::hold(std::size_t process, Duration length, bool suspended) {
   Process& p = processes_[process];
   p.held_until = now_ + length;
   p.suspended = suspended;
-  checkers_.disturbed(p.held_until + kAftermath);
   schedule({p.held_until, 0, Happening::kRelease, process, p.life, nullptr});
 }
 

@@ -15,16 +15,17 @@
 #include "tests/swarm/checkers.hpp"
 #include "tests/swarm/network.hpp"
 #include "tests/swarm/scenario.hpp"
+#include "tests/swarm/vehicle.hpp"
 
 namespace gyre::swarm {
 
 /// How many of each fault really happened, beside the packets' own counts.
 struct FaultCounts {
   PacketCounts packets;
-  std::uint64_t agents_killed = 0, coordinators_killed = 0, killed_in_transition = 0, suspended = 0, stalled = 0;
+  std::uint64_t agents_killed = 0, coordinators_killed = 0, killed_in_change = 0, suspended = 0, stalled = 0;
   std::uint64_t partitions = 0, second_coordinators = 0, stood_down = 0, stood_down_alone = 0;
   std::uint64_t commands = 0, retunes = 0, unflyable = 0;
-  std::uint64_t losses_named = 0, frozen_for_loss = 0, turned_back = 0;
+  std::uint64_t losses_named = 0, leases_ended = 0, stuck = 0, turned_back = 0, clock_stops = 0, found_anew = 0;
 };
 
 /// Ways to break a swarm on purpose, to see that the judges notice. Empty ones change nothing.
@@ -41,12 +42,6 @@ struct Message;
 struct Happening;
 struct Channel;
 
-/// Where a carrier is when nobody tells it anything (simulator/core/extrapolation.hpp).
-struct Vehicle {
-  TrueTime since{};
-  protocol::Setpoint last;
-};
-
 class Swarm {
  public:
   using Trace = std::function<void(TrueTime, const std::string&)>;
@@ -61,6 +56,8 @@ class Swarm {
   /// From the ground, to whichever coordinators live; reliable.
   void command(protocol::CommandKind kind);
   void shut_down();
+  /// As a person would who reads what the coordinator complains of, where only a person may.
+  void do_as_told();
 
   // What an observer may ask.
   [[nodiscard]] std::size_t coordinators_alive() const;
@@ -106,11 +103,12 @@ class Swarm {
   void watch_course(std::size_t process);
   void watch_losses();
   void tell_vehicle_states();
+  void show_to_coordinators(std::size_t process);
   void hear_notice(const std::string& notice);
   [[nodiscard]] Duration clock_error(std::size_t process) const;
   [[nodiscard]] LocalTime local(std::size_t process);
   [[nodiscard]] coordinator::Job job(std::size_t motion) const;
-  [[nodiscard]] protocol::CarrierState vehicle_state(std::size_t agent) const;
+  [[nodiscard]] protocol::CarrierState vehicle_state(std::size_t agent);
   template <class T>
   void say(T&& what) {
     if (trace_) trace_(now_, what());
@@ -133,7 +131,7 @@ class Swarm {
   std::vector<protocol::CommandReply> replies_;
   std::optional<coordinator::Outcome> last_outcome_;
   std::optional<Duration> kill_after_start_;
-  std::uint64_t last_watched_transition_ = 0;
+  std::uint64_t last_watched_revision_ = 0;
   std::uint64_t commands_sent_ = 0;
   bool healed_ = false;
   bool ending_ = false;

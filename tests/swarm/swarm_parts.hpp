@@ -13,8 +13,6 @@
 namespace gyre::swarm {
 
 inline constexpr Duration kObservation = std::chrono::milliseconds(20);
-/// After a fault ends, before the bounds that hold in calm may hold again.
-inline constexpr Duration kAftermath = std::chrono::seconds(1);
 
 struct Message {
   std::variant<protocol::Beacon, protocol::PlanOffer, protocol::HeldPlans, protocol::TimeRequest, protocol::TimeReply,
@@ -86,6 +84,7 @@ struct Process {
   }
 
   VirtualClock clock;
+  Duration jumped{};  ///< by how much its clock did
   CarrierId carrier = 0;
   std::unique_ptr<agent::Agent> agent;
   std::unique_ptr<coordinator::Coordinator> coordinator;

@@ -14,16 +14,15 @@ namespace swarm = gyre::swarm;
 
 int replay(std::uint64_t seed) {
   const swarm::Scenario scenario = swarm::scenario(seed);
-  std::printf("seed %llu: load %zu with %zu carriers, transitions of %.2f s, agent loss: %s\n",
+  std::printf("seed %llu: load %zu with %zu carriers, transitions of %.2f s, silence: %s\n",
               static_cast<unsigned long long>(seed), scenario.load, swarm::loads()[scenario.load].size(),
-              seconds(scenario.transition),
-              scenario.on_agent_loss == gyre::protocol::AgentLoss::kFreeze ? "freeze" : "continue");
+              seconds(scenario.transition), scenario.silence.stop_after ? "stop" : "fly on");
   const auto trace = [](swarm::TrueTime at, const std::string& what) {
     std::printf("%9.4f  %s\n", seconds(at.time_since_epoch()), what.c_str());
   };
   const swarm::FlightReport report = swarm::fly(scenario, {}, trace);
-  std::printf("half applied %.3g, residual %.3g of the weight, agreed after %.2f s\n%s", report.extremes.half_applied,
-              report.extremes.residual_share, seconds(report.agreed_after), describe(report).c_str());
+  std::printf("residual %.3g of the weight, of %.3g allowed; agreed after %.2f s\n%s", report.extremes.residual_share,
+              scenario.residual_budget, seconds(report.agreed_after), describe(report).c_str());
   return report.good() ? 0 : 1;
 }
 
@@ -34,8 +33,7 @@ double processor_s() {
 
 int sweep(std::uint64_t first, std::uint64_t flights, int shown) {
   std::map<std::string, std::uint64_t> broken;
-  double flown_s = 0.0, agreed_s = 0.0, four_flown_s = 0.0, four_took_s = 0.0, half_calm = 0.0, of_bound = 0.0,
-         step = 0.0;
+  double flown_s = 0.0, agreed_s = 0.0, four_flown_s = 0.0, four_took_s = 0.0, of_budget = 0.0, step = 0.0;
   std::uint64_t bad = 0;
   (void)swarm::loads();
   const double began_s = processor_s();
@@ -49,14 +47,14 @@ int sweep(std::uint64_t first, std::uint64_t flights, int shown) {
     }
     flown_s += seconds(report.flown);
     agreed_s = std::max(agreed_s, seconds(report.agreed_after));
-    half_calm = std::max(half_calm, report.extremes.half_applied_in_calm);
-    of_bound = std::max(of_bound, report.extremes.residual_of_bound);
+    of_budget = std::max(of_budget, report.extremes.residual_of_budget);
     step = std::max(step, report.extremes.step_of_bound);
     if (report.good()) continue;
     ++bad;
     for (const swarm::Finding& f : report.findings) {
       if (broken[f.rule]++ < static_cast<std::uint64_t>(shown))
-        std::printf("seed %llu: %s: %s\n", static_cast<unsigned long long>(seed), f.rule.c_str(), f.text.c_str());
+        std::printf("seed %llu: %s: %s; at most %.3g in this flight\n", static_cast<unsigned long long>(seed),
+                    f.rule.c_str(), f.text.c_str(), report.extremes.residual_share);
     }
   }
   const double took_s = processor_s() - began_s;
@@ -64,9 +62,8 @@ int sweep(std::uint64_t first, std::uint64_t flights, int shown) {
               static_cast<unsigned long long>(bad));
   for (const auto& [rule, count] : broken)
     std::printf("  %-14s %llu\n", rule.c_str(), static_cast<unsigned long long>(count));
-  std::printf(
-      "longest agreement %.2f s, half applied in calm %.3g, residual %.3g of its bound, step %.3g of its bound\n",
-      agreed_s, half_calm, of_bound, step);
+  std::printf("longest agreement %.2f s, residual %.3g of its budget, step %.3g of its bound\n", agreed_s, of_budget,
+              step);
   std::printf("%.0f s flown in %.1f s of one core: %.0f times faster than real time; n = 4: %.0f times\n", flown_s,
               took_s, flown_s / took_s, four_flown_s / four_took_s);
   return bad == 0 ? 0 : 1;

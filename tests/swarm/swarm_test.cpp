@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <memory>
 
+#include "common/mechanics/skew.hpp"
 #include "tests/swarm/flight.hpp"
 
 namespace gyre::swarm {
@@ -29,10 +31,15 @@ class Flights : public testing::TestWithParam<int> {};
 TEST_P(Flights, HoldTheLoadAndFindTogether) {
   const std::uint64_t each = std::max<std::uint64_t>(1, flights() / kChunks);
   const std::uint64_t first = 1 + static_cast<std::uint64_t>(GetParam()) * each;
+  std::uint64_t noticed = 0;
   for (std::uint64_t seed = first; seed < first + each; ++seed) {
     const FlightReport report = fly(scenario(seed));
     EXPECT_TRUE(report.good()) << describe(report);
+    noticed += report.extremes.residual_share > 0.01 ? 1 : 0;
   }
+  // Budgets are for the worst that a fault can do. Most do nothing: of 40 000 such flights in 1 of 330 there was ever a
+  // moment at which a hundredth of the weight was not held.
+  EXPECT_LE(noticed, 1 + each / 50);
 }
 
 INSTANTIATE_TEST_SUITE_P(Chunk, Flights, testing::Range(0, kChunks));
@@ -48,12 +55,10 @@ FaultCounts& operator+=(FaultCounts& a, const FaultCounts& b) {
 TEST(Faults, HappenEveryOneOfThem) {
   FaultCounts sum;
   std::uint64_t instants = 0;
-  double half_applied = 0.0;
-  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 600; ++seed) {
     const FlightReport report = fly(scenario(seed));
     sum += report.faults;
     instants += report.extremes.instants;
-    half_applied = std::max(half_applied, report.extremes.half_applied);
   }
   EXPECT_GT(sum.packets.lost, 10000U);
   EXPECT_GT(sum.packets.lost_in_burst, 1000U);
@@ -64,7 +69,7 @@ TEST(Faults, HappenEveryOneOfThem) {
   EXPECT_GT(sum.packets.lies, 100U);
   EXPECT_GT(sum.agents_killed, 20U);
   EXPECT_GT(sum.coordinators_killed, 20U);
-  EXPECT_GT(sum.killed_in_transition, 10U);
+  EXPECT_GT(sum.killed_in_change, 5U);
   EXPECT_GT(sum.suspended, 20U);
   EXPECT_GT(sum.stalled, 20U);
   EXPECT_GT(sum.partitions, 20U);
@@ -74,22 +79,19 @@ TEST(Faults, HappenEveryOneOfThem) {
   EXPECT_GT(sum.retunes, 20U);
   EXPECT_GT(sum.unflyable, 5U);
   EXPECT_GT(sum.losses_named, 5U);
-  EXPECT_GT(sum.frozen_for_loss, 5U);
+  EXPECT_GT(sum.leases_ended, 20U);
+  EXPECT_LE(sum.stuck, 10U) << "nobody holds: only whose lease ended before the others' is seen to stop";
   EXPECT_GT(sum.turned_back, 0U);
-  EXPECT_GT(instants, 100000U) << "the equilibrium has to be judged, not only excused";
-  EXPECT_GT(half_applied, 0.01) << "no flight was ever in trouble";
+  EXPECT_GT(instants, 100000U) << "the equilibrium has to be judged";
 }
 
-TEST(Calm, NothingIsEverHalfAppliedAndNobodyMergesMeasurably) {
+TEST(Calm, NobodyMergesMeasurably) {
   int flights_with_merges = 0;
   for (std::size_t load = 0; load < loads().size(); ++load) {
     const FlightReport report = fly(calm_scenario(load + 1, load));
     EXPECT_TRUE(report.good()) << describe(report);
-    // A go that is heard some milliseconds late is merged to: of 480 such flights in six, by up to 9 um.
     flights_with_merges += report.extremes.merging > 0 ? 1 : 0;
     EXPECT_LT(report.extremes.merging_m, 2e-5) << "load " << load;
-    EXPECT_LT(report.extremes.half_applied, 1e-5) << "load " << load;
-    EXPECT_LT(report.extremes.residual_share, 2e-3) << "load " << load;
   }
   EXPECT_LE(flights_with_merges, 1);
 }
@@ -105,35 +107,207 @@ TEST(Calm, TheSameSeedIsTheSameFlight) {
   }
 }
 
-/// A steady flight in which one agent dies at `at_s`; looked at until `until_s`.
-FaultCounts lose_one(protocol::AgentLoss policy, double at_s, double until_s, std::size_t* transitions) {
-  Scenario s = calm_scenario(5, 0);
-  s.on_agent_loss = policy;
-  const auto not_a_start = [](const Action& a) { return a.deed != Deed::kStart; };
-  s.actions.erase(std::remove_if(s.actions.begin(), s.actions.end(), not_a_start), s.actions.end());
-  Action kill;
-  kill.at = TrueTime(from_seconds(at_s));
-  kill.deed = Deed::kKill;
-  kill.process = kCoordinators + 1;
-  s.actions.push_back(kill);
-  Swarm swarm(s, {}, {});
-  swarm.run_until(TrueTime(from_seconds(until_s)));
-  EXPECT_TRUE(swarm.checkers().findings().empty());
-  *transitions = swarm.coordinator()->course().transitions.size();
-  return swarm.faults();
+/// A steady flight at full pace, and what happens in it.
+class Silence : public testing::Test {
+ protected:
+  static constexpr std::size_t kAgent = kCoordinators + 1;
+
+  /// Of this load, until `heal_s`.
+  explicit Silence(std::size_t load = 0) { begin(load); }
+  void begin(std::size_t load) {
+    s_ = calm_scenario(5, load);
+    const auto not_a_start = [](const Action& a) { return a.deed != Deed::kStart; };
+    s_.actions.erase(std::remove_if(s_.actions.begin(), s_.actions.end(), not_a_start), s_.actions.end());
+  }
+  Action& at(double at_s, Deed deed, std::size_t process = kAgent) {
+    Action action;
+    action.at = TrueTime(from_seconds(at_s));
+    action.deed = deed;
+    action.process = process;
+    s_.actions.push_back(action);
+    return s_.actions.back();
+  }
+  void cut_both_ways(double at_s, std::size_t agent) {
+    Action& cut = at(at_s, Deed::kCut);
+    for (std::size_t c = 0; c < kCoordinators; ++c) {
+      cut.cuts.push_back({c, agent});
+      cut.cuts.push_back({agent, c});
+    }
+  }
+  /// Flies until then, and tells what nobody excuses: the greatest share of the weight that was not held.
+  double fly_until(double until_s) {
+    swarm_ = std::make_unique<Swarm>(s_, Sabotage{}, Swarm::Trace{});
+    swarm_->run_until(TrueTime(from_seconds(until_s)));
+    EXPECT_TRUE(swarm_->checkers().findings().empty()) << swarm_->checkers().findings().front().text;
+    return swarm_->checkers().extremes().residual_share;
+  }
+  [[nodiscard]] std::size_t carriers() const { return loads()[s_.load].size(); }
+  /// Of the greatest force rate of any motion of this load, per second of disagreement, as a share of the weight.
+  [[nodiscard]] double share_per_second() const {
+    const auto& plan = loads()[s_.load].motions.front();
+    const double weight_n = plan.load.mass_kg * plan.gravity_m_s2;
+    return mechanics::kSkewShare / mechanics::skew_budget_s(mechanics::slices(plan), weight_n);
+  }
+
+  Scenario s_;
+  std::unique_ptr<Swarm> swarm_;
+};
+
+TEST_F(Silence, OfOneAgentsRadioIsNotNoticedAndAllStopTogetherOrFlyOn) {
+  for (std::size_t load = 0; load < loads().size(); ++load) {
+    for (const bool stops : {true, false}) {
+      begin(load);
+      if (!stops) s_.silence.stop_after.reset();
+      s_.residual_budget = cost::kCalm;
+      cut_both_ways(10.0 + 0.01 * static_cast<double>(load), kAgent);
+      const double share = fly_until(25.0);
+      EXPECT_LT(share, cost::kCalm) << load;
+      EXPECT_EQ(swarm_->faults().leases_ended, stops ? 1U : 0U);
+      EXPECT_EQ(swarm_->coordinator()->course().rests(SwarmTime::max() - kLongest), stops);
+    }
+  }
 }
 
-TEST(AgentLoss, IsNamedWithinHalfASecondAndThePolicyActs) {
+TEST_F(Silence, ThatBeginsWhileAStepOfTheLeaseIsOnItsWayCostsThatStep) {
+  // Wherever in a tenth of a second the link breaks. One of the two directions may break first.
+  int noticed = 0;
+  for (int i = 0; i < 100; ++i) {
+    begin(1 + static_cast<std::size_t>(i) % (loads().size() - 1));
+    s_.residual_budget = cost::kCalm + 0.15 * share_per_second();  // a step, and what the beacons' period adds
+    cut_both_ways(10.0 + 0.001 * i, kAgent);
+    noticed += fly_until(22.0) > cost::kCalm ? 1 : 0;
+  }
+  EXPECT_LE(noticed, 20) << "most often nothing is on its way";
+}
+
+TEST_F(Silence, OneWayOnlyIsNotNoticedEither) {
+  for (std::size_t load = 0; load < loads().size(); ++load) {
+    for (const bool hears : {true, false}) {
+      begin(load);
+      Action& cut = at(10.0, Deed::kCut);
+      for (std::size_t c = 0; c < kCoordinators; ++c) {
+        cut.cuts.push_back(hears ? Network::Cut{kAgent, c} : Network::Cut{c, kAgent});
+      }
+      s_.residual_budget = cost::kCalm + 0.15 * share_per_second();
+      (void)fly_until(25.0);
+      EXPECT_EQ(swarm_->faults().leases_ended, 1U) << load << hears;
+    }
+  }
+}
+
+TEST_F(Silence, OfHalfTheSwarmIsNotNoticed) {
+  for (std::size_t load = 0; load < loads().size(); ++load) {
+    for (const bool with_coordinator : {true, false}) {
+      begin(load);
+      Action& part = at(10.0, Deed::kPartition);
+      part.groups.assign(kCoordinators + carriers(), 0);
+      for (std::size_t i = 0; i < carriers(); ++i) {
+        part.groups[kCoordinators + i] = (i < carriers() / 2) == with_coordinator ? 1 : 0;
+      }
+      s_.residual_budget = cost::kCalm + 0.15 * share_per_second();
+      (void)fly_until(25.0);
+    }
+  }
+}
+
+TEST_F(Silence, OfADeadAgentIsNamedAndItsVehicleGoesOnAlongItsPath) {
   for (double at_s = 10.0; at_s < 11.0; at_s += 0.05) {
-    std::size_t transitions = 0;
-    const FaultCounts frozen = lose_one(protocol::AgentLoss::kFreeze, at_s, at_s + 1.5, &transitions);
-    EXPECT_EQ(frozen.losses_named, 1U);
-    EXPECT_EQ(frozen.frozen_for_loss, 1U);
-    EXPECT_EQ(transitions, 1U) << "the freeze is agreed";
-    const FaultCounts continued = lose_one(protocol::AgentLoss::kContinue, at_s, at_s + 4.0, &transitions);
-    EXPECT_EQ(continued.losses_named, 1U);
-    EXPECT_EQ(continued.frozen_for_loss, 0U);
-    EXPECT_EQ(transitions, 0U) << "the others fly on";
+    for (const bool stops : {true, false}) {
+      begin(0);
+      if (!stops) s_.silence.stop_after.reset();
+      at(at_s, Deed::kKill);
+      EXPECT_LT(fly_until(at_s + 10.0), cost::kCalm);
+      EXPECT_EQ(swarm_->faults().losses_named, 1U);
+      EXPECT_EQ(swarm_->faults().leases_ended, stops ? 1U : 0U);
+    }
+  }
+}
+
+TEST_F(Silence, OfADeadAgentWhoseVehicleHoldsStopsAllAtItsPhase) {
+  for (std::size_t load = 0; load < loads().size(); ++load) {
+    for (const bool stops : {true, false}) {
+      begin(load);
+      if (!stops) s_.silence.stop_after.reset();
+      s_.holding = {kAgent - kCoordinators};
+      at(10.0 + 0.3 * static_cast<double>(load), Deed::kKill);
+      // Until all have stopped, and while they go back to where it stands.
+      s_.residual_budget = cost::kCalm + 0.6 * share_per_second();
+      (void)fly_until(25.0);
+      EXPECT_EQ(swarm_->faults().stuck, 1U) << load;
+      EXPECT_EQ(swarm_->coordinator()->course().wish.by, protocol::Wisher::kEvidence);
+      EXPECT_LT(swarm_->checkers().residual_share_now().value(), cost::kCalm + 0.05 * share_per_second())
+          << load << ": they stand where it stands";
+    }
+  }
+}
+
+TEST_F(Silence, OfTheCoordinatorEndsInARestThatAllReachTogether) {
+  for (std::size_t load = 0; load < loads().size(); ++load) {
+    begin(load);
+    at(10.0, Deed::kKill, 0);
+    at(40.0, Deed::kStart, 0);
+    s_.residual_budget = cost::kCalm;
+    EXPECT_LT(fly_until(50.0), cost::kCalm);
+    const protocol::Course& course = swarm_->coordinator()->course();
+    EXPECT_EQ(course.wish.by, protocol::Wisher::kSilence);
+    EXPECT_EQ(course.pace.target(), 0.0) << "it stays at rest, whatever the coordinator was started with";
+  }
+}
+
+TEST_F(Silence, OfTheCoordinatorWithinTheLeaseIsNothing) {
+  for (std::size_t load = 0; load < loads().size(); ++load) {
+    begin(load);
+    at(10.0, Deed::kKill, 0);
+    at(12.0, Deed::kStart, 0);
+    s_.residual_budget = cost::kCalm;
+    EXPECT_LT(fly_until(25.0), cost::kCalm);
+    EXPECT_EQ(swarm_->coordinator()->course().pace.target(), 1.0);
+  }
+}
+
+TEST_F(Silence, IsNoReasonToStopInTheMiddleOfARelease) {
+  begin(0);
+  at(10.0, Deed::kKill);
+  at(11.0, Deed::kCommand).command = protocol::CommandKind::kRelease;
+  EXPECT_LT(fly_until(25.0), cost::kCalm);
+  ASSERT_EQ(swarm_->replies().size(), 1U);
+  EXPECT_TRUE(swarm_->replies().front().done) << swarm_->replies().front().text;
+  EXPECT_EQ(swarm_->coordinator()->course().wish.by, protocol::Wisher::kPerson);
+  EXPECT_EQ(swarm_->coordinator()->course().pace.target(), 0.0);
+}
+
+TEST_F(Silence, OfAnAgentWhoseClockStoodStillEndsWithinTwoSeconds) {
+  // Meanwhile its vehicle counts swarm time by a clock of its own: no longer than that may drift by little.
+  for (const double length_s : {0.2, 0.7, 3.0, 20.0, 300.0}) {
+    for (const std::size_t load : {0U, 3U, 9U}) {
+      begin(load);
+      s_.silence.stop_after.reset();
+      at(10.0, Deed::kClockStop).length = from_seconds(length_s);
+      s_.residual_budget = cost::kProcess;
+      EXPECT_LT(fly_until(12.0 + length_s), cost::kProcess) << length_s << " s, load " << load;
+      EXPECT_EQ(swarm_->faults().found_anew, 1U) << length_s;
+      swarm_->run_until(TrueTime(from_seconds(20.0 + length_s)));
+      std::string why;
+      EXPECT_TRUE(swarm_->agrees(std::chrono::milliseconds(2), &why)) << length_s << ": " << why;
+      EXPECT_TRUE(swarm_->merged()) << length_s;
+      EXPECT_TRUE(swarm_->checkers().findings().empty()) << swarm_->checkers().findings().front().text;
+    }
+  }
+}
+
+TEST_F(Silence, OfACoordinatorWhoseClockStoodStillMovesNobodysTime) {
+  for (const double length_s : {0.2, 0.7, 3.0, 20.0, 3600.0}) {
+    for (const bool stops : {true, false}) {
+      begin(0);
+      if (!stops) s_.silence.stop_after.reset();
+      at(10.0, Deed::kClockStop, 0).length = from_seconds(length_s);
+      s_.residual_budget = cost::kCalm;
+      EXPECT_LT(fly_until(20.0 + length_s), cost::kCalm) << length_s;
+      EXPECT_EQ(swarm_->faults().found_anew, 0U) << length_s;
+      std::string why;
+      EXPECT_TRUE(swarm_->agrees(std::chrono::milliseconds(2), &why)) << length_s << ": " << why;
+      EXPECT_EQ(swarm_->coordinator()->course().pace.target(), stops && length_s > 5.0 ? 0.0 : 1.0) << length_s;
+    }
   }
 }
 

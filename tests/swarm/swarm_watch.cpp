@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/base/text.hpp"
-#include "simulator/core/extrapolation.hpp"
+#include "common/protocol/term.hpp"
 #include "tests/swarm/swarm.hpp"
 #include "tests/swarm/swarm_parts.hpp"
 
@@ -24,7 +24,6 @@ void Swarm::observe() {
   const Weather& w = network_.weather;
   const bool bad = w.loss > 0.3 || w.bursts_per_s > 0.0 || w.overtaken > 0.0 || w.lies > 0.0 ||
                    !network_.groups.empty() || coordinators_alive() != 1;
-  if (bad) checkers_.disturbed(now_ + kAftermath);
   if (bad || w.garbage > 0.0) troubled_until_ = now_ + kLongestHeldBack;
   tell_vehicle_states();
   checkers_.instant(now_);
@@ -34,7 +33,8 @@ void Swarm::observe() {
 void Swarm::hear_notice(const std::string& notice) {
   const auto tells = [&notice](const std::string& what) { return notice.find(what) != std::string::npos; };
   if (tells("turning back")) ++faults_.turned_back;
-  if (tells("freezing where")) ++faults_.frozen_for_loss;
+  if (tells("all stop together")) ++faults_.leases_ended;
+  if (tells("has left its path")) ++faults_.stuck;
   if (loss_ && tells(text("agent %u is silent", processes_[loss_->process].carrier))) {
     ++faults_.losses_named;
     loss_.reset();
@@ -49,26 +49,33 @@ void Swarm::watch_losses() {
   loss_.reset();
 }
 
-protocol::CarrierState Swarm::vehicle_state(std::size_t agent) const {
-  const Vehicle& v = vehicles_[agent];
-  const auto w = simulator::extrapolate(seconds(now_ - v.since));
-  protocol::CarrierState s;
+protocol::CarrierState Swarm::vehicle_state(std::size_t agent) {
+  protocol::CarrierState s = vehicles_[agent].state(now_);
   s.carrier = processes_[agent + kCoordinators].carrier;
-  s.position_w_m =
-      v.last.position_w_m + w.by_velocity * v.last.velocity_w_m_s + w.by_acceleration * v.last.acceleration_w_m_s2;
-  s.velocity_w_m_s = w.rate_by_velocity * v.last.velocity_w_m_s + w.rate_by_acceleration * v.last.acceleration_w_m_s2;
-  s.winch_length_m = v.last.winch_length_m + w.by_velocity * v.last.winch_rate_m_s;
-  s.winch_rate_m_s = w.rate_by_velocity * v.last.winch_rate_m_s;
-  s.cable_length_m = s.winch_length_m;
   return s;
 }
 
 void Swarm::tell_vehicle_states() {
   for (std::size_t p = kCoordinators; p < processes_.size(); ++p) {
-    if (!processes_[p].running() || !processes_[p].joined) continue;
-    const Vehicle& vehicle = vehicles_[p - kCoordinators];
-    if (processes_[p].sends_setpoints && now_ - vehicle.since < kLeftAlone) continue;
-    arrive(p, Message{vehicle_state(p - kCoordinators)});
+    Vehicle& vehicle = vehicles_[p - kCoordinators];
+    show_to_coordinators(p);
+    const bool alone = !processes_[p].sends_setpoints || now_ - vehicle.commanded_at() >= kLeftAlone;
+    if (!alone) continue;
+    checkers_.alone(p - kCoordinators, now_, vehicle.doing(now_));
+    if (processes_[p].running() && processes_[p].joined) arrive(p, Message{vehicle_state(p - kCoordinators)});
+  }
+}
+
+/// By the same radio as its agent, but whether that lives or not.
+void Swarm::show_to_coordinators(std::size_t p) {
+  std::shared_ptr<const Message> state;
+  for (std::size_t c = 0; c < kCoordinators; ++c) {
+    const Process& target = processes_[c];
+    if (!target.running() || !target.joined) continue;
+    const Network::Fate fate = network_.send(now_, p, c);
+    if (fate.copies == 0) continue;
+    if (!state) state = std::make_shared<const Message>(Message{vehicle_state(p - kCoordinators)});
+    schedule({now_ + fate.delays[0], 0, Happening::kArrival, c, target.life, state});
   }
 }
 
@@ -108,15 +115,18 @@ bool Swarm::agrees(Duration clock_bound, std::string* why) const {
   const coordinator::Coordinator& leader = *coordinator();
   for (std::size_t p = kCoordinators; p < processes_.size(); ++p) {
     const protocol::Course& course = processes_[p].agent->course();
-    if (course.revision != leader.course().revision || course.base.number != leader.course().base.number) {
-      return no(text("agent %u flies another course", processes_[p].carrier));
+    if (course.term != leader.course().term || course.revision != leader.course().revision) {
+      return no(text("agent %u flies course %llu.%llu, not %llu.%llu", processes_[p].carrier,
+                     protocol::generation(course.term), static_cast<unsigned long long>(course.revision),
+                     protocol::generation(leader.course().term),
+                     static_cast<unsigned long long>(leader.course().revision)));
     }
   }
   return leader.term() != 0 ? true : no("the coordinator has no term yet");
 }
 
 bool Swarm::at_rest() const {
-  const auto still = [](const Process& p) { return p.agent && p.agent->course().transitions.empty(); };
+  const auto still = [](const Process& p) { return p.agent && p.agent->course().pace.target() == 0.0; };
   return std::all_of(processes_.begin() + kCoordinators, processes_.end(), still);
 }
 

@@ -81,9 +81,23 @@ void Swarm::attempt(std::size_t index, bool again) {
 
 void Swarm::command(protocol::CommandKind kind) {
   ++faults_.commands;
-  const Message message{protocol::Command{++commands_sent_, kind, ""}};
+  protocol::Command order;
+  order.id = ++commands_sent_;
+  order.kind = kind;
+  const Message message{order};
   for (std::size_t c = 0; c < kCoordinators; ++c) {
     if (processes_[c].running()) arrive(c, message);
+  }
+}
+
+void Swarm::do_as_told() {
+  for (std::size_t c = 0; c < kCoordinators; ++c) {
+    if (!processes_[c].running() || processes_[c].coordinator->term() == 0) continue;
+    const auto complaint = processes_[c].coordinator->complaint(local(c));
+    if (complaint && complaint->find("engage, and") != std::string::npos &&
+        !processes_[c].coordinator->course().wish.pace) {
+      command(protocol::CommandKind::kEngage);
+    }
   }
 }
 
@@ -117,20 +131,28 @@ void Swarm::perform(std::size_t process, const agent::Outputs& out) {
     for (std::size_t c = 0; c < kCoordinators; ++c) send(process, c, message);
   }
   if (out.setpoint) {
-    checkers_.setpoint(index, now_, *out.setpoint, vehicle_state(index), processes_[process].agent->course());
-    vehicles_[index] = {now_, *out.setpoint};
+    checkers_.setpoint(index, now_, *out.setpoint, vehicle_state(index));
+    vehicles_[index].command(now_, *out.setpoint);
     processes_[process].sends_setpoints = true;
   }
   if (out.status) {
     checkers_.status(index, now_, *out.status);
+    vehicles_[index].onward().take(*out.status);
     const auto message = std::make_shared<const Message>(Message{*out.status});
     for (std::size_t c = 0; c < kCoordinators; ++c) write((Channel::kStatus * kCoordinators + c) * n + index, message);
   }
   if (out.held) {
+    vehicles_[index].onward().take(*out.held);
     const auto message = std::make_shared<const Message>(Message{*out.held});
     for (std::size_t c = 0; c < kCoordinators; ++c) write((Channel::kHeld * kCoordinators + c) * n + index, message);
   }
-  for (const Notice& notice : out.notices) say([&] { return processes_[process].name(process) + ": " + notice.text; });
+  for (const Notice& notice : out.notices) {
+    if (notice.text.find("found anew") != std::string::npos) {
+      ++faults_.found_anew;
+      checkers_.found_anew(index, now_);
+    }
+    say([&] { return processes_[process].name(process) + ": " + notice.text; });
+  }
 }
 
 void Swarm::step_coordinator(std::size_t process, const coordinator::Event& event) {
@@ -191,15 +213,15 @@ void Swarm::perform(std::size_t process, const coordinator::Outputs& out) {
 }
 
 void Swarm::watch_course(std::size_t process) {
-  if (!kill_after_start_) return;
-  for (const protocol::Transition& t : processes_[process].coordinator->course().transitions) {
-    if (t.stage != protocol::Stage::kGo || t.id == last_watched_transition_) continue;
-    last_watched_transition_ = t.id;
-    const SwarmTime here = SwarmTime(local(process).time_since_epoch());
-    const TrueTime at = std::max(now_, now_ + (t.start - here) + *kill_after_start_);
-    kill_after_start_.reset();
-    return schedule({at, 0, Happening::kKill, process, 0, nullptr});
-  }
+  const protocol::Course& course = processes_[process].coordinator->course();
+  if (!kill_after_start_ || course.none() || course.revision == last_watched_revision_) return;
+  last_watched_revision_ = course.revision;
+  const SwarmTime here = SwarmTime(local(process).time_since_epoch());
+  const SwarmTime start = course.pace.ramps.back().start;
+  if (start <= here) return;
+  const TrueTime at = std::max(now_, now_ + (start - here) + *kill_after_start_);
+  kill_after_start_.reset();
+  schedule({at, 0, Happening::kKill, process, 0, nullptr});
 }
 
 }  // namespace gyre::swarm

@@ -1,15 +1,14 @@
 #pragma once
-// What a flight is held against: the certificate of everything it is made of.
+// What a flight is held against: the certificate of the mission's motion, at every pace from rest to full.
 //
-// A flight hangs at rest, mixes into the motion, flies it, and mixes back. The certificate of the motion alone does
-// not hold for the rest plan or for the mixtures, so each transition that was really flown (the beacons' course tells)
-// is enclosed too, and the whole flight is held against the hull of all of them.
+// A flight rests, speeds up, flies, and slows down, all along one path: places, lengths and tensions are those of the
+// motion throughout, speeds and winch rates are those of the motion times the pace (protocol/pace.hpp).
 
 #include <vector>
 
 #include "common/mechanics/certificate.hpp"
 #include "common/protocol/messages.hpp"
-#include "ground/flight/core/mission_plans.hpp"
+#include "ground/flight/core/mission_plan.hpp"
 
 namespace gyre::ground {
 
@@ -17,29 +16,24 @@ class FlightCertificate {
  public:
   explicit FlightCertificate(const mechanics::Plan& motion);
 
-  void see(const protocol::CoordinatorStatus& status) { plans_.learn(status); }
-  /// Remembers the transitions of a course that are go. Cheap; the same course may come any number of times, and has
-  /// to: before the coordinator has told which plan is which, it says nothing.
+  void see(const protocol::CoordinatorStatus& status) { plan_.learn(status); }
+  /// Any number of times; before the coordinator has told which plan is the mission's, it says nothing.
   void include(const protocol::Course& course);
 
-  /// A plan the flight went to that this mission does not tell: what follows cannot be judged.
+  /// False: the flight went to a plan that this mission does not tell; what follows cannot be judged.
   [[nodiscard]] bool knows_all_plans() const { return knows_all_plans_; }
 
   struct CarrierBounds {
     CarrierId id = 0;
-    mechanics::CarrierFigures motion;  ///< while no transition is under way
-    mechanics::CarrierFigures whole;   ///< rest, transitions, and motion
+    mechanics::CarrierFigures motion;  ///< at full pace
+    mechanics::CarrierFigures whole;   ///< from rest to rest
   };
-  /// In the mission's order. Encloses the transitions: up to some milliseconds for each carrier and transition.
+  /// In the mission's order.
   [[nodiscard]] std::vector<CarrierBounds> bounds() const;
 
  private:
   mechanics::Certificate motion_;
-  mechanics::Certificate rest_;
-  std::vector<mechanics::CarrierSlice> motion_slices_;
-  std::vector<mechanics::CarrierSlice> rest_slices_;
-  MissionPlans plans_;
-  std::vector<protocol::Course> courses_;  // each with at least one transition, all of them go
+  MissionPlan plan_;
   bool knows_all_plans_ = true;
 };
 

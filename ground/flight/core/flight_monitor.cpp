@@ -6,14 +6,6 @@
 #include "common/protocol/course.hpp"
 
 namespace gyre::ground {
-namespace {
-
-bool is_go(const protocol::Transition& transition) {
-  return transition.stage == protocol::Stage::kGo;
-}
-
-}  // namespace
-
 const char* name(FlightPhase phase) {
   switch (phase) {
     case FlightPhase::kStarting:
@@ -24,6 +16,8 @@ const char* name(FlightPhase phase) {
       return "engaging";
     case FlightPhase::kFlying:
       return "flying";
+    case FlightPhase::kSlowed:
+      return "slowed";
     case FlightPhase::kReleasing:
       return "releasing";
     case FlightPhase::kDeviated:
@@ -41,7 +35,7 @@ void FlightMonitor::see(const protocol::Beacon& beacon, LocalTime arrived) {
   coordinator_.heard(arrived);
   beacon_ = beacon;
   beacon_arrived_ = arrived;
-  if (plans_.known()) remember_motion();
+  if (plan_.known()) remember_motion();
 }
 
 void FlightMonitor::see(const protocol::AgentStatus& status, LocalTime arrived) {
@@ -49,10 +43,10 @@ void FlightMonitor::see(const protocol::AgentStatus& status, LocalTime arrived) 
   if (found == agents_.end()) return;
   Agent& agent = found->second;
   agent.heard.heard(arrived);
-  if (!plans_.known()) return;
+  if (!plan_.known()) return;
   const auto& accepted = status.accepted;
-  agent.ready = std::find(accepted.begin(), accepted.end(), plans_.motion) != accepted.end();
-  if (status.refused == plans_.motion) agent.refusal = status.refusal;
+  agent.ready = std::find(accepted.begin(), accepted.end(), plan_.number) != accepted.end();
+  if (status.refused == plan_.number) agent.refusal = status.refusal;
   if (!all_ready_ && agents_ready() == agents()) all_ready_ = arrived;
 }
 
@@ -66,12 +60,14 @@ int FlightMonitor::agents_ready() const {
 }
 
 FlightPhase FlightMonitor::phase(LocalTime now) const {
-  if (!coordinator_.ever_heard() || !plans_.known() || !simulator_.ever_heard()) return FlightPhase::kStarting;
+  if (!coordinator_.ever_heard() || !plan_.known() || !simulator_.ever_heard()) return FlightPhase::kStarting;
   switch (place(now)) {
     case Place::kTowardsMotion:
       return FlightPhase::kEngaging;
     case Place::kMotion:
       return FlightPhase::kFlying;
+    case Place::kSlowed:
+      return FlightPhase::kSlowed;
     case Place::kTowardsRest:
       return FlightPhase::kReleasing;
     case Place::kElsewhere:
@@ -101,8 +97,8 @@ std::optional<std::string> FlightMonitor::complaint(LocalTime now) const {
   switch (phase(now)) {
     case FlightPhase::kStarting:
       if (now - begin_ <= patience_.starting) return std::nullopt;
-      if (coordinator_.ever_heard() && !plans_.known()) {
-        return "the coordinator did not tell which plan is which" + waited(patience_.starting);
+      if (coordinator_.ever_heard() && !plan_.known()) {
+        return "the coordinator did not tell which plan is the mission's" + waited(patience_.starting);
       }
       return std::string(coordinator_.ever_heard() ? "the simulator" : "the coordinator") + " was not heard" +
              waited(patience_.starting);
@@ -120,8 +116,9 @@ std::optional<std::string> FlightMonitor::complaint(LocalTime now) const {
       }
       break;
     case FlightPhase::kDeviated:
-      return "the swarm left the motion for a plan of its own: the coordinator's log says why";
+      return "the swarm left the motion by itself: the coordinator's log says why";
     case FlightPhase::kFlying:
+    case FlightPhase::kSlowed:
     case FlightPhase::kReleasing:
       break;
   }
@@ -145,30 +142,34 @@ SwarmTime FlightMonitor::swarm_time(LocalTime now) const {
 }
 
 FlightMonitor::Place FlightMonitor::place(LocalTime now) const {
+  if (!plan_.known()) return Place::kRest;
   const SwarmTime at = swarm_time(now);
-  protocol::Course course = beacon_.course;
-  protocol::settle(course, at);
-  const bool mixing = protocol::in_transition(course, at);
-  protocol::PlanNumber top = course.base.number;
-  for (const protocol::Transition& transition : course.transitions) {
-    if (is_go(transition) && transition.start <= at) top = transition.to.number;
+  const protocol::Course& course = beacon_.course;
+  const auto plans = protocol::plans_of(course);
+  if (std::any_of(plans.begin(), plans.end(), [this](const auto& p) { return p != plan_.number; })) {
+    return Place::kElsewhere;
   }
-  if (!plans_.known()) return Place::kRest;
-  if (top == plans_.rest) return mixing ? Place::kTowardsRest : Place::kRest;
-  if (top == plans_.motion) return mixing ? Place::kTowardsMotion : Place::kMotion;
-  return Place::kElsewhere;
+  const protocol::Pace pace = course.flown_pace(at);
+  if (course.wish.by == protocol::Wisher::kSilence || course.wish.by == protocol::Wisher::kEvidence)
+    return Place::kElsewhere;
+  // The last one that has begun counts: what is only announced changes nothing yet.
+  const auto passing =
+      std::find_if(pace.ramps.rbegin(), pace.ramps.rend(), [at](const auto& r) { return r.start <= at; });
+  const bool changing = passing != pace.ramps.rend() && at < passing->end();
+  const double towards = changing ? passing->target : pace.at(at).pace;
+  if (towards == 0.0) return changing ? Place::kTowardsRest : Place::kRest;
+  if (towards == 1.0) return changing ? Place::kTowardsMotion : Place::kMotion;
+  return Place::kSlowed;
 }
 
 void FlightMonitor::remember_motion() {
-  for (const protocol::Transition& transition : beacon_.course.transitions) {
-    if (!is_go(transition)) continue;
-    transition_duration_ = transition.duration;
-    if (transition.to.number == plans_.motion) {
-      motion_complete_ = transition.end();
-      motion_left_.reset();
-    } else {
-      motion_left_ = transition.start;
-    }
+  const protocol::Ramp& last = beacon_.course.pace.ramps.back();
+  if (last.duration > Duration::zero()) transition_duration_ = last.duration;
+  if (last.target == 1.0) {
+    if (!motion_complete_ || motion_left_) motion_complete_ = last.end();
+    motion_left_.reset();
+  } else if (motion_complete_ && !motion_left_) {
+    motion_left_ = last.start;
   }
 }
 

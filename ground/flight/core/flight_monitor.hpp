@@ -10,17 +10,18 @@
 
 #include "common/protocol/liveness.hpp"
 #include "common/protocol/messages.hpp"
-#include "ground/flight/core/mission_plans.hpp"
+#include "ground/flight/core/mission_plan.hpp"
 
 namespace gyre::ground {
 
 enum class FlightPhase {
-  kStarting,   ///< the coordinator or the simulator has not been heard, or not which plan is which
+  kStarting,   ///< the coordinator or the simulator has not been heard, or not which plan is the mission's
   kMatching,   ///< not every agent has accepted the motion
-  kEngaging,   ///< from rest to the motion; also the wait for it to begin
-  kFlying,     ///< the motion, and no transition under way
+  kEngaging,   ///< from rest to full pace; also the wait for it to begin
+  kFlying,     ///< the motion, at full pace
+  kSlowed,     ///< the motion at another pace, as a person asked
   kReleasing,  ///< back to rest, and at rest
-  kDeviated,   ///< the swarm went to a plan of its own, as when an agent was lost, or to that of another mission
+  kDeviated,   ///< the swarm stopped by itself, because somebody fell silent, or went to another mission's plan
 };
 
 /// "starting", "matching", ...
@@ -38,7 +39,7 @@ class FlightMonitor {
   FlightMonitor(const std::vector<CarrierId>& carriers, LocalTime now, const FlightPatience& patience = {});
 
   void see(const protocol::Beacon& beacon, LocalTime arrived);
-  void see(const protocol::CoordinatorStatus& status) { plans_.learn(status); }
+  void see(const protocol::CoordinatorStatus& status) { plan_.learn(status); }
   void see(const protocol::AgentStatus& status, LocalTime arrived);
   void see(const protocol::CarrierState& state, LocalTime arrived);
 
@@ -46,11 +47,11 @@ class FlightMonitor {
   [[nodiscard]] int agents() const { return static_cast<int>(agents_.size()); }
   /// Agents that have accepted the motion.
   [[nodiscard]] int agents_ready() const;
-  /// Since the motion was complete and until it was left; 0 before.
+  /// Since full pace was reached and until it was left; 0 before.
   [[nodiscard]] Duration flown(LocalTime now) const;
   /// Whether the load has been handed over to moving carriers and is not at rest again.
   [[nodiscard]] bool under_way(LocalTime now) const;
-  /// How long the newest transition takes: the bound of a release.
+  /// How long the newest change of pace takes: the bound of a release.
   [[nodiscard]] Duration transition_duration() const { return transition_duration_; }
 
   /// What has not come in time, who refused, or who fell silent: a sentence that names them.
@@ -62,7 +63,7 @@ class FlightMonitor {
     bool ready = false;
     std::string refusal;
   };
-  enum class Place { kRest, kTowardsMotion, kMotion, kTowardsRest, kElsewhere };
+  enum class Place { kRest, kTowardsMotion, kMotion, kSlowed, kTowardsRest, kElsewhere };
 
   [[nodiscard]] SwarmTime swarm_time(LocalTime now) const;
   [[nodiscard]] Place place(LocalTime now) const;
@@ -74,12 +75,12 @@ class FlightMonitor {
   std::map<CarrierId, Agent> agents_;
   protocol::Liveness simulator_;
   protocol::Liveness coordinator_;
-  MissionPlans plans_;
+  MissionPlan plan_;
   protocol::Beacon beacon_;
   LocalTime beacon_arrived_{};
   std::optional<LocalTime> all_ready_;
-  std::optional<SwarmTime> motion_complete_;  // end of the transition to the motion
-  std::optional<SwarmTime> motion_left_;      // start of the transition away from it
+  std::optional<SwarmTime> motion_complete_;  // end of the ramp to full pace
+  std::optional<SwarmTime> motion_left_;      // start of the ramp away from it
   Duration transition_duration_{};
 };
 

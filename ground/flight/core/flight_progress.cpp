@@ -12,6 +12,7 @@ std::string how_far(const FlightProgress& progress) {
     case FlightPhase::kMatching:
       return text("%d of %d agents", progress.agents_ready, progress.agents);
     case FlightPhase::kFlying:
+    case FlightPhase::kSlowed:
     case FlightPhase::kReleasing:
       return text("%.1f of %.1f s", progress.flown_s, progress.duration_s);
     case FlightPhase::kStarting:

@@ -27,7 +27,7 @@ struct FlownFigures {
 
 struct CarrierRecord {
   CarrierId id = 0;
-  FlownFigures motion;  ///< while no transition was under way
+  FlownFigures motion;  ///< at full pace
   FlownFigures whole;   ///< all of the flight
 };
 
@@ -54,7 +54,7 @@ class FlightRecord {
  public:
   explicit FlightRecord(const mechanics::Plan& plan);
 
-  /// `motion_proper`: no transition is under way. A carrier that is not of this mission is not recorded,
+  /// `motion_proper`: at full pace. A carrier that is not of this mission is not recorded,
   /// nonsense of anybody (protocol/sanity.hpp) neither.
   void see(const protocol::CarrierState& state, bool motion_proper);
   void see(const protocol::LoadState& state, LocalTime arrived);

@@ -31,7 +31,7 @@ class Judge {
                     const Range& whole) {
     const bool motion_inside = inside(bound, "in the motion", certified, flown);
     // What the motion broke already need not be said twice.
-    const bool whole_inside = !motion_inside || inside(bound, "in a transition", hull, whole);
+    const bool whole_inside = !motion_inside || inside(bound, "on the way", hull, whole);
     return {certified, flown, motion_inside && whole_inside};
   }
 

@@ -1,9 +1,8 @@
 #pragma once
 // The verdict on a flight: what was flown against what was certified.
 //
-// The motion proper is held against the motion's certificate, the whole flight, with its transitions, against the hull
-// of all it is made of (flight_certificate.hpp). The least speed is judged for the motion only: a flight begins and
-// ends at rest.
+// The motion at full pace is held against its certificate, the whole flight against that of every pace from rest to
+// full (flight_certificate.hpp). The least speed is judged for the motion only: a flight begins and ends at rest.
 
 #include <string>
 #include <vector>

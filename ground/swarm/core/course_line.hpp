@@ -1,5 +1,5 @@
 #pragma once
-// Where a swarm is between its plans, in words: "motion", "rest -> motion (40 %)".
+// What a swarm flies, in words: "motion", "rest -> motion (40 %)", "motion at 50 %".
 
 #include <optional>
 #include <string>
@@ -8,7 +8,10 @@
 
 namespace gyre::ground {
 
-/// "rest" or "motion" where the coordinator has told which plan is which, else "plan 3.7": its term and revision.
+/// "rest", "motion", "motion at 50 %".
+[[nodiscard]] std::string pace_name(double pace);
+
+/// "the mission's" where the coordinator has told which that is, else "plan 3.7": its term and revision.
 [[nodiscard]] std::string plan_name(const protocol::PlanNumber& plan,
                                     const std::optional<protocol::CoordinatorStatus>& coordinator);
 

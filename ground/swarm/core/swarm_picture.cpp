@@ -25,6 +25,22 @@ const char* name(protocol::AgentState state) {
   return "unknown";
 }
 
+const char* whose(protocol::Wisher by) {
+  switch (by) {
+    case protocol::Wisher::kNobody:
+      return "for nobody has wished anything yet";
+    case protocol::Wisher::kStart:
+      return "as the coordinator was started to";
+    case protocol::Wisher::kPerson:
+      return "as a person asked";
+    case protocol::Wisher::kSilence:
+      return "since somebody fell silent";
+    case protocol::Wisher::kEvidence:
+      return "since a carrier got stuck";
+  }
+  return "by whomever";
+}
+
 std::string count(std::uint64_t n) {
   return std::to_string(n);
 }
@@ -49,6 +65,17 @@ bool SwarmPicture::complete() const {
   return std::all_of(coordinator_->carriers.begin(), coordinator_->carriers.end(), [&](CarrierId id) {
     return agents_.count(id) > 0 || std::find(silent.begin(), silent.end(), id) != silent.end();
   });
+}
+
+std::string SwarmPicture::wish_line() const {
+  const protocol::Course& course = beacon_->course;
+  const SwarmTime now = beacon_->swarm_time;
+  const std::string line = pace_name(course.wish.pace) + (course.wish.rest_when_changed ? ", then rest" : "") + ", " +
+                           whose(course.wish.by) + text("; the pace is %.3g %%", 100.0 * course.moment(now).pace);
+  if (!course.lease) return line + "; no lease, it flies on without a word";
+  const double left_s = seconds(*course.lease - now);
+  return line + (left_s > 0.0 ? text("; the lease runs for another %.1f s", left_s)
+                              : text("; the lease ended %.1f s ago", -left_s));
 }
 
 std::string SwarmPicture::load_line() const {
@@ -76,6 +103,7 @@ std::string SwarmPicture::table() const {
   std::string out = text("%s: term %llu, swarm time %.1f s\n", c.mission.c_str(), protocol::generation(c.term),
                          seconds(c.swarm_time.time_since_epoch()));
   out += "  course   " + (beacon_ ? course_line(*beacon_, coordinator_) : "no beacon heard") + "\n";
+  if (beacon_) out += "  wish     " + wish_line() + "\n";
   out += "  load     " + load_line() + "\n";
   out += "  clocks   " + clock_line() + "\n";
   out += "  latest   " + c.news + "\n\n";

@@ -25,6 +25,7 @@ class SwarmPicture {
   [[nodiscard]] std::string table() const;
 
  private:
+  [[nodiscard]] std::string wish_line() const;
   [[nodiscard]] std::string load_line() const;
   [[nodiscard]] std::string clock_line() const;
   [[nodiscard]] std::string woke_late(const std::string& process) const;

@@ -93,10 +93,16 @@ std::string SwarmWatch::complaint(LocalTime now) const {
   if (coordinator_heard_.silent(now)) return "the coordinator beacons, but does not say how it is";
   if (!coordinator_->silent.empty()) return text("carrier %u is silent", coordinator_->silent.front());
   const protocol::Course& course = beacon_->course;
-  if (!course.transitions.empty()) return "a transition is under way";
-  if (course.base.number != coordinator_->rest && course.base.number != coordinator_->motion) {
-    return "the load is held by neither the motion nor the rest plan";
+  if (course.wish.by == protocol::Wisher::kSilence && course.wish.pace == 0.0)
+    return "all have stopped, because somebody fell silent";
+  if (course.wish.by == protocol::Wisher::kEvidence && course.wish.pace == 0.0) {
+    return "all have stopped, because a carrier got stuck";
   }
+  if (!course.transitions.empty()) return "a transition is under way";
+  if (!course.flown_pace(beacon_->swarm_time).constant(beacon_->swarm_time)) return "the pace is changing";
+  if (beacon_->proposal) return "a change is proposed";
+  if (course.wish.pace != course.pace.target()) return pace_name(course.wish.pace) + " is wished, and not agreed yet";
+  if (course.base.number != coordinator_->plan) return "the load is not held by the mission's plan";
   if (coordinator_->skew_budget > Duration::zero() && coordinator_->skew > coordinator_->skew_budget) {
     return text("the clocks may disagree by %.3g ms, the plan in force allows %.3g ms",
                 1e3 * seconds(coordinator_->skew), 1e3 * seconds(coordinator_->skew_budget));

@@ -1,0 +1,94 @@
+// How long changes of pace take, and which are refused.
+
+#include "coordinator/core/ramps.hpp"
+
+#include <gtest/gtest.h>
+
+namespace gyre::coordinator {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+/// One carrier, 2 m/s and 3 m/s² at full pace.
+RampLimits limits(double acceleration_max_m_s2) {
+  RampLimits out;
+  out.limits.acceleration_max_m_s2 = acceleration_max_m_s2;
+  mechanics::CarrierFigures carrier;
+  carrier.id = 7;
+  carrier.speed_m_s = {1.5, 2.0};
+  carrier.acceleration_max_m_s2 = 3.0;
+  out.figures = {carrier};
+  return out;
+}
+
+constexpr Duration kLongest = std::chrono::minutes(5);
+
+TEST(Ramps, AreAsShortAsTheyKeepTheLimits) {
+  const protocol::Pace rest;
+  const auto roomy = ramp_duration(rest, {SwarmTime{}, 1.0, seconds(5), false}, limits(100.0), kLongest);
+  ASSERT_TRUE(roomy);
+  EXPECT_EQ(roomy.value(), seconds(5));
+  const auto narrow = ramp_duration(rest, {SwarmTime{}, 1.0, milliseconds(500), false}, limits(3.2), kLongest);
+  ASSERT_TRUE(narrow);
+  EXPECT_GT(narrow.value(), seconds(1));
+  EXPECT_FALSE(limits(3.2).broken_by(rest.with_ramp(SwarmTime{}, narrow.value(), 1.0).ramps.back()));
+  EXPECT_TRUE(limits(3.2).broken_by(rest.with_ramp(SwarmTime{}, narrow.value() * 3 / 4, 1.0).ramps.back()));
+}
+
+TEST(Ramps, OfAFixedLengthAreRefusedInWordsUnlessTheyStop) {
+  const RampLimits narrow = limits(3.2);
+  const auto refused = ramp_duration({}, {SwarmTime{}, 1.0, milliseconds(500), true}, narrow, kLongest);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().text.find("carrier 7: acceleration up to"), std::string::npos) << refused.error().text;
+  protocol::Pace motion;
+  motion.ramps.front().from.pace = motion.ramps.front().target = 1.0;
+  const auto stops = ramp_duration(motion, {SwarmTime{}, 0.0, milliseconds(500), true}, narrow, kLongest);
+  ASSERT_TRUE(stops);
+  EXPECT_GT(stops.value(), milliseconds(500)) << "a flight must be able to end, as gently as it has to";
+}
+
+TEST(Ramps, ThatNobodyCanFlyAreRefusedAndAStopIsTriedAllTheSame) {
+  const RampLimits impossible = limits(2.0);
+  EXPECT_FALSE(ramp_duration({}, {SwarmTime{}, 1.0, seconds(1), false}, impossible, kLongest));
+  protocol::Pace motion;
+  motion.ramps.front().from.pace = motion.ramps.front().target = 1.0;
+  EXPECT_TRUE(ramp_duration(motion, {SwarmTime{}, 0.0, seconds(1), false}, impossible, kLongest));
+}
+
+TEST(Ramps, AreJudgedByThoseWhoAskForMost) {
+  RampLimits all = limits(10.0);
+  mechanics::CarrierFigures less = all.figures.front();
+  less.id = 8;
+  less.speed_m_s.max = 1.9;
+  all.include(less);
+  EXPECT_EQ(all.figures.size(), 1U);
+  mechanics::CarrierFigures other = less;
+  other.acceleration_max_m_s2 = 3.1;
+  all.include(other);
+  EXPECT_EQ(all.figures.size(), 2U) << "one is faster, the other harder accelerated";
+  other.id = 9;
+  other.speed_m_s.max = 2.5;
+  all.include(other);
+  ASSERT_EQ(all.figures.size(), 1U);
+  EXPECT_EQ(all.figures.front().id, 9U);
+}
+
+TEST(Ramps, AtTheEndOfALeaseAreLongEnoughForTheFastest) {
+  EXPECT_EQ(stopping_time(limits(100.0), seconds(2), kLongest), seconds(2));
+  const Duration gently = stopping_time(limits(3.2), seconds(2), kLongest);
+  EXPECT_FALSE(limits(3.2).broken_by({SwarmTime{}, gently, {PlanTime{}, 1.0, 0.0, 0.0}, 0.0}));
+}
+
+TEST(Ramps, LeaveNobodyTooSlowForGood) {
+  mechanics::Limits least;
+  least.speed_min_m_s = 1.2;
+  const auto& figures = limits(1.0).figures;
+  EXPECT_TRUE(too_slow(0.7, least, figures)) << "1.05 m/s";
+  EXPECT_FALSE(too_slow(0.9, least, figures));
+  EXPECT_FALSE(too_slow(0.0, least, figures)) << "rest is no flight";
+  EXPECT_FALSE(too_slow(0.7, {}, figures));
+}
+
+}  // namespace
+}  // namespace gyre::coordinator

@@ -1,0 +1,43 @@
+#pragma once
+// Where a carrier is, and what it does when nobody tells it anything: as the simulator's vehicles do
+// (simulator/core/onward.hpp, on_silence.hpp, extrapolation.hpp), without their dynamics.
+
+#include "common/protocol/messages.hpp"
+#include "simulator/core/catch_up.hpp"
+#include "simulator/core/on_silence.hpp"
+#include "simulator/core/onward.hpp"
+#include "tests/swarm/virtual_clock.hpp"
+
+namespace gyre::swarm {
+
+class Vehicle {
+ public:
+  /// Rests there until it is told anything else.
+  void place(const protocol::Setpoint& at_rest) { last_ = at_rest; }
+  /// From now on it is of the kind that brakes when nobody tells it anything (simulator/core/on_silence.hpp).
+  void holds() { on_silence_ = simulator::OnSilence::kHolds; }
+  void command(TrueTime now, const protocol::Setpoint& setpoint);
+  simulator::Onward& onward() { return onward_; }
+
+  [[nodiscard]] TrueTime commanded_at() const { return since_; }
+  /// What it does now, in the form of a command; it counts swarm time by itself since the last one.
+  [[nodiscard]] protocol::Setpoint doing(TrueTime now);
+  [[nodiscard]] protocol::CarrierState state(TrueTime now);
+
+ private:
+  [[nodiscard]] protocol::Setpoint extrapolated(TrueTime now) const;
+  [[nodiscard]] protocol::Setpoint braked(TrueTime now) const;
+  [[nodiscard]] protocol::Setpoint went_on(TrueTime now) const;
+
+  TrueTime since_{};
+  simulator::OnSilence on_silence_ = simulator::OnSilence::kGoesOn;
+  bool led_ = false;
+  protocol::Setpoint last_;
+  simulator::Onward onward_;
+  std::optional<TrueTime> alone_at_;  // the last time it was asked what it does by itself,
+  protocol::Setpoint did_;            // and what that was
+  simulator::CatchUp<Eigen::Vector3d> gap_w_m_{Eigen::Vector3d::Zero()};
+  simulator::CatchUp<double> gap_m_{0.0};
+};
+
+}  // namespace gyre::swarm

@@ -26,8 +26,6 @@ constexpr double kAway_m = 0.1;
 
 }  // namespace
 
-namespace {}  // namespace
-
 Leading::Leading(LocalTime now, const Job& job, const CoordinatorOptions& options, Swarm& swarm, News& news,
                  const Beginning& beginning, Outputs& out)
     : job_(job),

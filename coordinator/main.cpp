@@ -61,10 +61,7 @@ class Wire {
     }
     node.read<protocol::Beacon>([this](protocol::Beacon b, LocalTime) { inbox_.push(std::move(b)); });
     node.read<protocol::Health>([this](protocol::Health h, LocalTime) { inbox_.push(std::move(h)); });
-    node.read<protocol::Command>([this](protocol::Command c, LocalTime) {
-      if (c.kind != protocol::CommandKind::kRetune) return inbox_.push(std::move(c));
-      retunes_.ask(c);
-    });
+    node.read<protocol::Command>([this](protocol::Command c, LocalTime) { inbox_.push(std::move(c)); });
     for (const gyre::mechanics::Carrier& carrier : plan.carriers) {
       node.read<protocol::AgentStatus>([this](protocol::AgentStatus s, LocalTime) { inbox_.push(std::move(s)); },
                                        carrier.id);
@@ -103,9 +100,7 @@ class Wire {
   }
 
  private:
-  gyre::dds::Inbox<Event> inbox_;  // outlives the node, whose handlers fill it, and the worker
-  gyre::coordinator::RetuneWorker retunes_{
-      judged, [this](gyre::coordinator::Retune retune) { inbox_.push(std::move(retune)); }};
+  gyre::dds::Inbox<Event> inbox_;  // outlives the node, whose handlers fill it
   std::unique_ptr<gyre::dds::Node> node_;
   gyre::dds::HealthReporter health_;
   gyre::dds::Writer<protocol::Beacon> beacon_;
@@ -116,6 +111,7 @@ class Wire {
 };
 
 Outcome conduct(Coordinator& coordinator, Wire& wire) {
+  gyre::coordinator::RetuneWorker retunes(judged);
   LocalTime next_tick = gyre::dds::now();
   std::optional<Outcome> finished;
   const auto step = [&](const Event& event) {
@@ -125,8 +121,14 @@ Outcome conduct(Coordinator& coordinator, Wire& wire) {
     next_tick = out.next_tick;
     if (out.finished) finished = out.finished;
   };
+  const auto hear = [&](const Event& event) {
+    const auto* command = std::get_if<protocol::Command>(&event);
+    if (command == nullptr || command->kind != protocol::CommandKind::kRetune) return step(event);
+    if (const auto known = retunes.ask(*command)) step(*known);
+  };
   for (int interrupts = 0; !finished;) {
-    for (const Event& event : wire.sleep_until(next_tick)) step(event);
+    for (const Event& event : wire.sleep_until(next_tick)) hear(event);
+    if (const auto retune = retunes.finished()) step(*retune);
     step(gyre::coordinator::Tick{});
     wire.report_health(coordinator);
     const gyre::Interrupts asked = gyre::take_interrupts();

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <future>
-#include <vector>
+#include <thread>
 
 namespace gyre::coordinator {
 namespace {
@@ -20,68 +20,47 @@ protocol::Command retune(std::uint64_t id) {
 
 class RetuneWorkerTest : public testing::Test {
  protected:
-  /// The next one that was told.
-  Retune told() {
-    std::unique_lock<std::mutex> lock(mutex_);
-    arrived_.wait(lock, [this] { return !told_.empty(); });
-    Retune first = told_.front();
-    told_.erase(told_.begin());
-    return first;
-  }
-  std::size_t waiting() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return told_.size();
+  /// However long that takes.
+  Retune judged() {
+    for (;;) {
+      if (auto retune = worker_.finished()) return *retune;
+      std::this_thread::yield();
+    }
   }
 
   std::promise<void> may_end_;
   std::shared_future<void> end_ = may_end_.get_future().share();
-  std::promise<void> began_;
   int judged_ = 0;
-  std::mutex mutex_;
-  std::condition_variable arrived_;
-  std::vector<Retune> told_;
   RetuneWorker worker_{[this](const std::string& mission) -> Result<Job> {
-                         if (++judged_ == 1) began_.set_value();
-                         end_.wait();
-                         return Error{"judged " + mission};
-                       },
-                       [this](const Retune& retune) {
-                         const std::lock_guard<std::mutex> lock(mutex_);
-                         told_.push_back(retune);
-                         arrived_.notify_all();
-                       }};
+    ++judged_;
+    end_.wait();
+    return Error{"judged " + mission};
+  }};
 };
 
 TEST_F(RetuneWorkerTest, WhoeverAsksDoesNotWaitAndAnotherIsToldToTryAgain) {
-  worker_.ask(retune(1));  // returns, or this test never ends
-  began_.get_future().wait();
-  worker_.ask(retune(1));
-  EXPECT_EQ(waiting(), 0U) << "repeated, it is still the one that is judged";
-  worker_.ask(retune(2));
-  const Retune refused = told();
-  EXPECT_EQ(refused.command, 2U);
-  EXPECT_EQ(refused.job.error().text, "another retune is being judged; try again");
+  EXPECT_FALSE(worker_.ask(retune(1)));  // returns, or this test never ends
+  EXPECT_FALSE(worker_.ask(retune(1))) << "repeated, it is still the one that is judged";
+  const auto refused = worker_.ask(retune(2));
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->command, 2U);
+  EXPECT_EQ(refused->job.error().text, "another retune is being judged; try again");
   may_end_.set_value();
-  const Retune first = told();
+  const Retune first = judged();
   EXPECT_EQ(first.command, 1U);
   EXPECT_EQ(first.job.error().text, "judged mission 1");
 }
 
 TEST_F(RetuneWorkerTest, TheNextOneIsJudgedAndARepeatedOneIsNotAgain) {
   may_end_.set_value();
-  worker_.ask(retune(1));
-  EXPECT_EQ(told().job.error().text, "judged mission 1");
-  // It is free a moment after it told.
-  std::uint64_t id = 2;
-  worker_.ask(retune(id));
-  while (told().job.error().text != "judged mission " + std::to_string(id)) worker_.ask(retune(++id));
-  const std::uint64_t last = id;
-  std::string again;
-  do {
-    worker_.ask(retune(last));
-    again = waiting() > 0 ? told().job.error().text : "";
-  } while (again.empty());
-  EXPECT_EQ(again, "judged mission " + std::to_string(last));
+  for (const std::uint64_t id : {1U, 2U}) {
+    EXPECT_FALSE(worker_.ask(retune(id)));
+    EXPECT_EQ(judged().job.error().text, "judged mission " + std::to_string(id));
+  }
+  const auto again = worker_.ask(retune(2));
+  ASSERT_TRUE(again) << "its answer was lost";
+  EXPECT_EQ(again->job.error().text, "judged mission 2");
+  EXPECT_FALSE(worker_.finished());
   EXPECT_EQ(judged_, 2);
 }
 

@@ -4,12 +4,14 @@
 
 #include "agent/core/agent.hpp"
 #include "agent/vehicle/vehicle_options.hpp"
+#include "common/base/ensure.hpp"
 #include "common/base/interrupts.hpp"
 #include "common/base/log.hpp"
 #include "common/base/text.hpp"
 #include "common/dds/health_reporter.hpp"
 #include "common/dds/inbox.hpp"
 #include "common/program/program.hpp"
+#include "common/program/worker.hpp"
 
 namespace {
 
@@ -17,6 +19,8 @@ using gyre::LocalTime;
 using gyre::agent::Agent;
 using gyre::agent::Event;
 using gyre::agent::Outputs;
+using gyre::agent::PlanQuestion;
+using gyre::agent::PlanVerdict;
 namespace program = gyre::program;
 namespace protocol = gyre::protocol;
 
@@ -74,15 +78,18 @@ int run(const gyre::agent::AgentOptions& options, const program::NetworkOptions&
       gyre::text("carrier %u: waiting for a coordinator on domain %d", options.carrier, node.value()->domain()));
   Wire wire(std::move(node).value(), options.carrier);
 
+  program::Worker<PlanQuestion, PlanVerdict> judge(gyre::agent::judge);
   LocalTime next_tick = gyre::dds::now();
   const auto step = [&](const Event& event) {
     const Outputs out = agent.step(gyre::dds::now(), event);
     wire.send(out);
     gyre::log(out.notices);
+    if (out.question) GYRE_ENSURE(judge.begin(*out.question), "an agent asks one question at a time");
     next_tick = out.next_tick;
   };
   while (gyre::take_interrupts().total() == 0) {
     for (const Event& event : wire.sleep_until(next_tick)) step(event);
+    if (const auto verdict = judge.finished()) step(*verdict);
     agent.count_undecodable(wire.undecodable());
     step(gyre::agent::Tick{});
     wire.report_health(agent);

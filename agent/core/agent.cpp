@@ -188,16 +188,25 @@ void Agent::on(LocalTime now, const protocol::PlanOffer& offer, Outputs& out) {
   }
   // None is said again, so one that leaps is taken; but it does not make deaf to those that follow.
   if (offer.sequence - offers_taken_ <= kFurthestOffer) offers_taken_ = offer.sequence;
-  const protocol::PlanNumber refused_before = plans_.refused();
   const bool keeps = offer.neighbour.size() != neighbour_.size() ||
                      !std::equal(neighbour_.begin(), neighbour_.end(), offer.neighbour.begin(),
                                  [](const auto& a, const auto& b) { return a.number == b.number; });
   neighbour_ = offer.neighbour;
-  if (!plans_.take(offer.slices, protocol::plans_of(course_)) && !keeps) return;
-  if (plans_.refused() != refused_before) {
-    out.notices.push_back({Notice::Level::kError, "plan refused: " + plans_.refusal()});
-  }
+  const bool forgot = plans_.take(offer.slices, protocol::plans_of(course_));
+  out.question = plans_.question();
+  if (forgot || keeps) tell_plans(now, out);
+}
+
+void Agent::on(LocalTime now, const PlanVerdict& verdict, Outputs& out) {
+  const bool wanted = plans_.take(verdict);
+  out.question = plans_.question();  // the next one, whatever became of this
+  if (!wanted) return;
+  if (!verdict.figures) out.notices.push_back({Notice::Level::kError, "plan refused: " + plans_.refusal()});
   if (heard_) adopt(now, out);
+  tell_plans(now, out);
+}
+
+void Agent::tell_plans(LocalTime now, Outputs& out) {
   out.held = protocol::HeldPlans{options_.carrier, options_.incarnation, plans_.held(), neighbour_};
   out.status = status(now);  // the coordinator is waiting for this answer
 }

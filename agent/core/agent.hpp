@@ -4,13 +4,15 @@
 // step(now, event) -> outputs; it reads no clock and performs nothing. What it costs does not depend on n.
 //
 // Duties of whoever performs the outputs: send the time request first and the setpoint next, at once: both carry the
-// moment of this step. Call again at `next_tick` at the latest; a call that comes late is not made up for.
+// moment of this step. Call again at `next_tick` at the latest; a call that comes late is not made up for. Judge a
+// question beside that beat (plan_judge.hpp), and tell the verdict as an event, however late.
 
 #include <cstdint>
 #include <optional>
 #include <variant>
 
 #include "agent/core/merge.hpp"
+#include "agent/core/plan_judge.hpp"
 #include "agent/core/plan_store.hpp"
 #include "agent/core/step_judge.hpp"
 #include "common/base/notice.hpp"
@@ -60,13 +62,15 @@ struct TimeReplyArrived {
   protocol::TimeReply reply;
   LocalTime arrived{};
 };
-using Event = std::variant<Tick, protocol::Beacon, protocol::PlanOffer, TimeReplyArrived, protocol::CarrierState>;
+using Event =
+    std::variant<Tick, protocol::Beacon, protocol::PlanOffer, TimeReplyArrived, protocol::CarrierState, PlanVerdict>;
 
 struct Outputs {
   std::optional<protocol::TimeRequest> time_request;
   std::optional<protocol::Setpoint> setpoint;
   std::optional<protocol::AgentStatus> status;
   std::optional<protocol::HeldPlans> held;
+  std::optional<PlanQuestion> question;  ///< whose verdict is to be told; never a second one before that
   Notices notices;
   LocalTime next_tick{};
 };
@@ -96,10 +100,12 @@ class Agent {
   void on(LocalTime now, const protocol::PlanOffer& offer, Outputs& out);
   void on(LocalTime now, const TimeReplyArrived& arrived, Outputs& out);
   void on(LocalTime now, const protocol::CarrierState& state, Outputs& out);
+  void on(LocalTime now, const PlanVerdict& verdict, Outputs& out);
 
   [[nodiscard]] bool accepts_term(std::uint64_t term, Outputs& out);
   void send(LocalTime now, const protocol::Setpoint& setpoint, Outputs& out);
   void take_early_offer(LocalTime now, Outputs& out);
+  void tell_plans(LocalTime now, Outputs& out);
   void adopt(LocalTime now, Outputs& out);
   /// Whether to fly `course` from now on; it begins where the carrier is.
   [[nodiscard]] bool merge_to(LocalTime now, const protocol::Course& course);

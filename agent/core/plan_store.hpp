@@ -1,12 +1,16 @@
 #pragma once
 // The plans an agent holds: what it was offered, and whether its vehicle can fly it.
 //
-// A slice is certified on arrival against the vehicle's own limits with the same exact figures the coordinator used for
-// the whole (mechanics/orbit_figures.hpp): whoever made the plan, this vehicle flies nothing it cannot.
+// A plan that is new waits for its verdict (plan_judge.hpp), one at a time, and is held or refused from then on. Only
+// what the newest offer says waits, each in the order in which it was first offered: junk that is not offered any more
+// is not judged any more, and a plan that stays offered waits for no more than kMaxPlans verdicts, whatever is offered
+// beside it. A verdict on what nobody offers any more is worth nothing.
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "agent/core/plan_judge.hpp"
 #include "common/mechanics/plan.hpp"
 #include "common/protocol/messages.hpp"
 
@@ -14,13 +18,17 @@ namespace gyre::agent {
 
 class PlanStore {
  public:
-  /// `vehicle`: what this carrier can do; absent limits are not judged. Its speed_min holds for plans that move.
+  /// `vehicle`: what this carrier can do.
   explicit PlanStore(mechanics::Limits vehicle) : vehicle_(vehicle) {}
 
-  /// Takes in what is new; keeps what is offered or `in_use`, forgets the rest. True if anything changed.
+  /// Keeps what is offered or `in_use`, forgets the rest; what is new waits. True if one that was held is not any more.
   bool take(const std::vector<protocol::NumberedSlice>& offered, const std::vector<protocol::PlanNumber>& in_use);
+  /// What is to be judged now; absent while the last one is, or when nothing waits.
+  [[nodiscard]] std::optional<PlanQuestion> question();
+  /// The answer. True if its plan is still offered: from now on it is held, or refused.
+  bool take(const PlanVerdict& verdict);
 
-  /// nullptr when not held or refused.
+  /// nullptr when not held: unknown, refused, or not judged yet.
   [[nodiscard]] const mechanics::CarrierSlice* find(const protocol::PlanNumber& number) const;
   /// The newest kMaxPlans of them. An agent that missed changes holds what it flies besides what is offered, which can
   /// be more than a message takes; the old ones are of no use to anybody else.
@@ -33,10 +41,17 @@ class PlanStore {
   [[nodiscard]] const std::string& refusal() const { return refusal_; }
 
  private:
-  void judge(const protocol::NumberedSlice& offered);
+  struct Held {
+    protocol::NumberedSlice plan;
+    mechanics::CarrierFigures figures;
+  };
+  [[nodiscard]] const Held* held(const protocol::PlanNumber& number) const;
 
   mechanics::Limits vehicle_;
-  std::vector<protocol::NumberedSlice> accepted_;
+  std::vector<Held> accepted_;
+  std::vector<protocol::NumberedSlice> waiting_;    ///< offered and not judged yet; first offered, first judged
+  std::vector<protocol::NumberedSlice> unflyable_;  ///< offered and refused
+  std::optional<protocol::NumberedSlice> asked_;    ///< whose verdict is still to come
   protocol::PlanNumber refused_;
   std::string refusal_;
 };

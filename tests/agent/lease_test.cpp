@@ -88,7 +88,8 @@ TEST_F(LeaseTest, StopsTwoAgentsIdenticallyHoweverTheyCameToKnowIt) {
   engage();
   // The one heard every word since the start, ramps and all. The other was started in flight, and had only a moment.
   const std::unique_ptr<Agent> other = new_agent(2);
-  other->step(now_, plans({kMotion, kOther}));
+  const Outputs offered = other->step(now_, plans({kMotion}));
+  other->step(now_, judge(*offered.question));
   for (int i = 0; i < 100; ++i, now_ += milliseconds(10)) {
     grant(seconds(2));
     beacon();

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "tests/mechanics/plans.hpp"
 
@@ -50,7 +51,13 @@ class AgentTest : public testing::Test {
     if (out.held) held_ = out.held;
     if (out.setpoint) setpoint_ = out.setpoint;
     for (const Notice& notice : out.notices) heard_ += notice.text + "\n";
+    if (out.question) question_ = out.question;
+    if (judges_at_once_) answer();
     return out;
+  }
+  /// What it waits for; it may ask for more then.
+  void answer() {
+    if (const auto question = std::exchange(question_, std::nullopt)) tell(judge(*question));
   }
 
   protocol::TimeReply reply_to(const protocol::TimeRequest& request) {
@@ -189,6 +196,8 @@ class AgentTest : public testing::Test {
   std::optional<protocol::AgentStatus> status_;
   std::optional<protocol::HeldPlans> held_;
   std::optional<protocol::Setpoint> setpoint_;
+  bool judges_at_once_ = true;
+  std::optional<PlanQuestion> question_;  ///< that was not answered yet
   std::function<void(const protocol::Setpoint&)> visit_;
   std::string heard_;
   std::uint64_t sequence_ = 0;

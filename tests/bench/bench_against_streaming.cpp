@@ -231,6 +231,7 @@ class GyreFlight {
     if (out.setpoint) world_.hear(now, *out.setpoint);
     if (out.held) to_coordinator_.send_until_heard(up(i), now, *out.held);
     if (out.status) to_coordinator_.send_until_heard(up(i), now, *out.status);
+    if (out.question) act(now, i, gyre::agent::judge(*out.question));
   }
 
   World world_;

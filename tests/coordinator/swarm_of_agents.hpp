@@ -178,11 +178,17 @@ class SwarmOfAgents {
 
   void tell_agent(CarrierId id, const agent::Event& event) {
     if (const auto found = agents_.find(id); found != agents_.end()) {
-      const agent::Outputs out = found->second->step(now, event);
+      const agent::Outputs out = step(*found->second, id, event);
       if (out.setpoint) setpoints[id] = *out.setpoint;
-      hear(id, out);
     }
-    if (const auto found = twins_.find(id); found != twins_.end()) hear(id, found->second->step(now, event));
+    if (const auto found = twins_.find(id); found != twins_.end()) step(*found->second, id, event);
+  }
+
+  agent::Outputs step(agent::Agent& agent, CarrierId id, const agent::Event& event) {
+    agent::Outputs out = agent.step(now, event);
+    hear(id, out);
+    if (out.question) step(agent, id, agent::judge(*out.question));  // at once
+    return out;
   }
 
   void hear(CarrierId id, const agent::Outputs& out) {

@@ -177,7 +177,9 @@ Scenario scenario(std::uint64_t seed) {
   s.transition = w.span(2.0, 6.0);
   s.engage_when_ready = w.chance(0.6);
   s.rehearse = w.chance(0.005);
-  const double begin_s = w.chance(0.2) ? 0.0 : 4.0;  // some swarms start into bad weather
+  RandomStream judging(seed, "judging");
+  if (judging.uniform() < 0.3) s.judging = from_seconds(judging.uniform());  // processors that others want as well
+  const double begin_s = w.chance(0.2) ? 0.0 : 4.0;                          // some swarms start into bad weather
   const double heal_s = w.draw(10.0, 20.0);
   const std::size_t faults = w.pick(6);
   for (std::size_t i = 0; i < faults; ++i) w.fault(w.draw(begin_s, heal_s), heal_s);

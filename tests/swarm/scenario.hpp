@@ -71,6 +71,8 @@ struct Scenario {
   /// What all the faults of this flight together may cost: the share of the weight that is not held, at any moment.
   double residual_budget = cost::kCalm;
   Duration transition{};
+  /// An agent's verdict on a plan comes up to so long after the offer; by itself, within a beat.
+  Duration judging = std::chrono::milliseconds(10);
   bool engage_when_ready = false;
   bool rehearse = false;
   std::vector<Action> actions;  ///< in order of time

@@ -31,7 +31,8 @@ Swarm::Swarm(const Scenario& scenario, const Sabotage& sabotage, Trace trace)
       checkers_(load_, scenario_),
       vehicles_(load_.size()),
       process_of_(kMaxCarrierId + 1, 0),
-      chores_(scenario.seed, "chores") {
+      chores_(scenario.seed, "chores"),
+      judging_(scenario.seed, "judging") {
   const std::size_t count = kCoordinators + load_.size();
   for (std::size_t p = 0; p < count; ++p) {
     processes_.emplace_back(VirtualClock(RandomStream(scenario.seed, text("clock %zu", p)), scenario_.clock_offsets[p],

@@ -25,6 +25,7 @@ struct FaultCounts {
   std::uint64_t agents_killed = 0, coordinators_killed = 0, killed_in_change = 0, suspended = 0, stalled = 0;
   std::uint64_t partitions = 0, second_coordinators = 0, stood_down = 0, stood_down_alone = 0;
   std::uint64_t commands = 0, retunes = 0, unflyable = 0;
+  std::uint64_t late_verdicts = 0;
   std::uint64_t losses_named = 0, leases_ended = 0, stuck = 0, turned_back = 0, clock_stops = 0, found_anew = 0;
 };
 
@@ -136,6 +137,7 @@ class Swarm {
   bool healed_ = false;
   bool ending_ = false;
   RandomStream chores_;
+  RandomStream judging_;
   TrueTime troubled_until_{};  ///< packets that were held back still arrive
   struct Loss {
     std::size_t process = 0;

@@ -17,8 +17,8 @@ inline constexpr Duration kObservation = std::chrono::milliseconds(20);
 struct Message {
   std::variant<protocol::Beacon, protocol::PlanOffer, protocol::HeldPlans, protocol::TimeRequest, protocol::TimeReply,
                protocol::AgentStatus, protocol::CarrierState, protocol::Command, coordinator::Retune,
-               coordinator::Shutdown>
-      content;
+               coordinator::Shutdown, agent::PlanVerdict>
+      content;  ///< the last ones do not cross the wire
 
   /// As the shells hand it to the cores; absent where no such process listens.
   [[nodiscard]] friend std::optional<agent::Event> for_agent(const Message& message, LocalTime arrived) {

@@ -78,6 +78,7 @@ TEST(Faults, HappenEveryOneOfThem) {
   EXPECT_GT(sum.commands, 100U);
   EXPECT_GT(sum.retunes, 20U);
   EXPECT_GT(sum.unflyable, 5U);
+  EXPECT_GT(sum.late_verdicts, 20U);
   EXPECT_GT(sum.losses_named, 5U);
   EXPECT_GT(sum.leases_ended, 20U);
   EXPECT_LE(sum.stuck, 10U) << "nobody holds: only whose lease ended before the others' is seen to stop";

@@ -13,6 +13,8 @@ namespace {
 /// A reader asks again for what it knows to have missed (docs/interop.md "Delivery").
 constexpr Duration kHeartbeat = std::chrono::milliseconds(35);
 constexpr Duration kSupervisor = std::chrono::seconds(1);
+/// A change is agreed in less.
+constexpr Duration kLate = std::chrono::milliseconds(450);
 /// More never waits of one topic at a process that does not read: the middleware keeps the newest few.
 constexpr std::ptrdiff_t kWaitingOfOneKind = 4;
 
@@ -145,6 +147,12 @@ void Swarm::perform(std::size_t process, const agent::Outputs& out) {
     vehicles_[index].onward().take(*out.held);
     const auto message = std::make_shared<const Message>(Message{*out.held});
     for (std::size_t c = 0; c < kCoordinators; ++c) write((Channel::kHeld * kCoordinators + c) * n + index, message);
+  }
+  if (out.question) {
+    const Duration takes = from_seconds(seconds(scenario_.judging) * judging_.uniform());
+    if (takes > kLate) ++faults_.late_verdicts;
+    const auto verdict = std::make_shared<const Message>(Message{agent::judge(*out.question)});
+    schedule({now_ + takes, 0, Happening::kArrival, process, processes_[process].life, verdict});
   }
   for (const Notice& notice : out.notices) {
     if (notice.text.find("found anew") != std::string::npos) {

@@ -70,9 +70,11 @@ class Wire {
   gyre::dds::Writer<protocol::HeldPlans> held_;
 };
 
-int run(const gyre::agent::AgentOptions& options, const program::NetworkOptions& network) {
+int run(gyre::agent::AgentOptions options, const program::NetworkOptions& network) {
   auto node = program::open_node(network, {std::nullopt, options.carrier});
   if (!node) return node.error();
+  options.incarnation = node.value()->incarnation();
+  options.address = node.value()->address();
   Agent agent(options);
   gyre::log_info(
       gyre::text("carrier %u: waiting for a coordinator on domain %d", options.carrier, node.value()->domain()));
@@ -111,8 +113,6 @@ int main(int argc, char** argv) {
   groups.push_back(gyre::agent::vehicle_options(options.vehicle));
   const auto fly = [&]() -> int {
     if (const auto answer = program::start("gyre-agent " + std::to_string(options.carrier), common)) return *answer;
-    // The moment of the start tells one life of this agent from the next.
-    options.incarnation = static_cast<std::uint64_t>(gyre::dds::now().time_since_epoch().count());
     return run(options, common.network);
   };
   return program::run(

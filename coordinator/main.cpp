@@ -67,12 +67,15 @@ class Wire {
                                        carrier.id);
       node.read<protocol::HeldPlans>([this](protocol::HeldPlans h, LocalTime) { inbox_.push(std::move(h)); },
                                      carrier.id);
-      // Evidence is wanted at the beacons' rate; what comes between is passed over before it wakes anybody.
+      // Evidence is wanted at the beacons' rate; what comes between from the same vehicle is passed over before it
+      // wakes anybody.
       node.read<protocol::CarrierState>(
-          [this, own = carrier.id, last = LocalTime::min()](const protocol::CarrierState& s,
-                                                            LocalTime arrived) mutable {
-            if (s.carrier != own || (last != LocalTime::min() && arrived - last < kEvidencePeriod)) return;
+          [this, own = carrier.id, last = LocalTime::min(), from = std::uint64_t{0}](const protocol::CarrierState& s,
+                                                                                     LocalTime arrived) mutable {
+            if (s.carrier != own) return;
+            if (s.incarnation == from && last != LocalTime::min() && arrived - last < kEvidencePeriod) return;
             last = arrived;
+            from = s.incarnation;
             inbox_.push(s);
           },
           carrier.id);

@@ -123,8 +123,10 @@ int run(const std::string& path, const program::NetworkOptions& network) {
   auto node = program::open_node(network, {gyre::dds::Hub::kSimulator, std::nullopt});
   if (!node) return node.error();
   const gyre::mechanics::Plan& plan = mission.value().plan;
+  SimulationSettings settings = settings_of(mission.value());
+  settings.incarnation = node.value()->incarnation();
   Wire wire(std::move(node).value(), plan);
-  auto simulator = Simulator::create(plan, settings_of(mission.value()), gyre::dds::now());
+  auto simulator = Simulator::create(plan, settings, gyre::dds::now());
   if (!simulator) {
     gyre::log_error(simulator.error().text);
     return program::kFailed;

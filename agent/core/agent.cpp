@@ -45,7 +45,8 @@ Agent::Agent(const AgentOptions& options)
       plans_(options.vehicle),
       merge_(merge_limits(options.vehicle)),
       steps_(options.vehicle, options.stall),
-      coordinator_(options.coordinator_timeout) {}
+      coordinator_(options.coordinator_timeout),
+      vehicles_(options.vehicle_timeout) {}
 
 Outputs Agent::step(LocalTime now, const Event& event) {
   Outputs out;
@@ -213,7 +214,7 @@ void Agent::tell_plans(LocalTime now, Outputs& out) {
 
 void Agent::adopt(LocalTime now, Outputs& out) {
   const std::optional<SwarmTime> time = swarm_time(now);
-  if (!time) return;
+  if (!time || !believed_) return;
   const std::uint64_t confirmed_before = confirmed_;
   if (const auto& proposal = heard_->proposal; proposal && confirms(*proposal)) confirmed_ = proposal->revision;
   const bool confirmed = confirmed_ != confirmed_before;
@@ -281,6 +282,16 @@ bool Agent::merge_to(LocalTime now, const protocol::Course& course) {
   return true;
 }
 
+void Agent::give_way() {
+  course_ = {};
+  confirmed_ = 0;
+  merge_ = Merge(merge_limits(options_.vehicle));
+  steps_.forget();
+  wants_vehicle_since_.reset();
+  flown_at_.reset();
+  awake_since_.reset();
+}
+
 /// After a stall, its own or the wire's to the vehicle, the vehicle has gone on by itself: what it is told next begins
 /// where it is. False while that is unknown.
 bool Agent::back_at_the_vehicle(LocalTime now) {
@@ -317,6 +328,9 @@ void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
   }
   if (!accepts_term(reply.term, out)) return;
   requests_answered_ = reply.sequence;  // believed or not: a copy of a lie is not a second witness
+  believed_ = reply.believed == 0 || reply.believed == options_.incarnation;
+  rival_ = reply.rival;
+  if (!believed_) give_way();
   const bool before = clock_.synchronised();
   std::optional<Command> flown;
   if (before && reference(course_, clock_.at(now))) flown = merge_.apply(clock_.at(now), path(course_));
@@ -348,12 +362,23 @@ void Agent::on(LocalTime now, const protocol::CarrierState& state, Outputs& /*ou
     ++dropped_.nonsense;
     return;
   }
+  const protocol::Incumbent::Verdict verdict = vehicles_.hear(now, state.incarnation);
+  if (verdict == protocol::Incumbent::Verdict::kRival) {
+    ++dropped_.duplicate;
+    return;
+  }
   // Silent while this agent was awake; after a stall of its own, what comes first is old (back_at_the_vehicle).
-  const bool was_silent =
-      vehicle_ && now - vehicle_heard_ > options_.vehicle_timeout && flown_at_ && now - *flown_at_ <= options_.stall;
+  const bool flies = flown_at_ && now - *flown_at_ <= options_.stall;
+  const bool was_silent = vehicle_ && now - vehicle_heard_ > options_.vehicle_timeout;
+  const bool another = vehicle_ && verdict == protocol::Incumbent::Verdict::kSucceeds;
   vehicle_ = state;
   vehicle_heard_ = now;
-  if (was_silent && is_lost(now)) awake_since_ = now;
+  if (flies && (was_silent || another) && is_lost(now)) awake_since_ = now;
+  if (!flies || state.follows == 0 || state.follows == options_.incarnation) {
+    unfollowed_since_.reset();
+  } else if (!unfollowed_since_) {
+    unfollowed_since_ = now;
+  }
 }
 
 bool Agent::is_lost(LocalTime now) const {
@@ -373,6 +398,7 @@ protocol::Setpoint Agent::setpoint(SwarmTime now, const mechanics::Reference& r)
                                                 : command_of(r, plans_.find(course_.base.number)->cable_stiffness_n_m);
   protocol::Setpoint s;
   s.carrier = options_.carrier;
+  s.incarnation = options_.incarnation;
   s.sequence = ++setpoints_;
   s.swarm_time = now;
   s.position_w_m = command.position_w_m.value;

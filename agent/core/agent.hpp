@@ -18,6 +18,7 @@
 #include "common/base/notice.hpp"
 #include "common/mechanics/reference.hpp"
 #include "common/protocol/counting.hpp"
+#include "common/protocol/incumbent.hpp"
 #include "common/protocol/liveness.hpp"
 #include "common/protocol/messages.hpp"
 #include "common/protocol/timekeeper.hpp"
@@ -27,6 +28,7 @@ namespace gyre::agent {
 struct AgentOptions {
   CarrierId carrier = 0;
   std::uint64_t incarnation = 0;  ///< differs at every start
+  std::string address;            ///< where this process is, for people
   mechanics::Limits vehicle;      ///< what this vehicle can do
   Duration control_period = std::chrono::milliseconds(10);
   Duration status_period = std::chrono::milliseconds(100);
@@ -109,6 +111,8 @@ class Agent {
   void adopt(LocalTime now, Outputs& out);
   /// Whether to fly `course` from now on; it begins where the carrier is.
   [[nodiscard]] bool merge_to(LocalTime now, const protocol::Course& course);
+  /// Another agent of this carrier is believed: this one follows nothing, until that one is gone.
+  void give_way();
   [[nodiscard]] bool back_at_the_vehicle(LocalTime now);
   void begin_at_the_vehicle(LocalTime now, const Path& path);
   /// Whether the vehicle is too far from what it was asked for to have heard it.
@@ -145,8 +149,12 @@ class Agent {
   protocol::Course course_;                ///< what is flown
   std::uint64_t confirmed_ = 0;
   LocalTime awaited_until_ = LocalTime::min();
+  bool believed_ = true;  ///< to be the agent of this carrier, by the coordinator
+  std::string rival_;     ///< where another one is; empty: there is none
+  protocol::Incumbent vehicles_;
   std::optional<protocol::CarrierState> vehicle_;  ///< where the carrier really is
   LocalTime vehicle_heard_{};
+  std::optional<LocalTime> unfollowed_since_;  ///< the vehicle says that it follows another agent
   std::optional<LocalTime> wants_vehicle_since_;
   std::optional<LocalTime> flown_at_;  ///< the last setpoint, or where the vehicle was when it began
   std::optional<LocalTime> awake_since_;

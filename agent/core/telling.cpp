@@ -21,8 +21,15 @@ std::optional<std::string> Agent::complaint(LocalTime now) const {
     return text("the coordinator is silent since %.1f s", seconds(now - *coordinator_.last()));
   }
   if (const auto complaint = clock_.complaint()) return complaint;
+  if (!believed_) return "another agent flies this carrier, at " + rival_ + "; end one of the two";
+  if (!rival_.empty()) return "another agent claims this carrier, at " + rival_ + "; end one of the two";
   if (!clock_.synchronised()) return "swarm time was not found";
   if (plans_.find(course_.base.number) == nullptr) return "has no plan yet";
+  if (vehicles_.contested(now)) return "two vehicles, or simulators, tell where this carrier is; end one of them";
+  // Whoever takes over is followed within kSucceeded.
+  if (unfollowed_since_ && now - *unfollowed_since_ > 2 * protocol::kSucceeded) {
+    return "its vehicle follows another agent; end one of the two";
+  }
   if (withheld_ && now - withheld_->at <= options_.complained) return withheld_->why;
   const Duration budget = heard_ ? heard_->skew_budget : Duration::zero();
   const Duration uncertainty = clock_.uncertainty(now);
@@ -57,6 +64,7 @@ protocol::AgentStatus Agent::status(LocalTime now) {
   s.beacons_missed = beacons_missed_;
   s.dropped = dropped_;
   s.dropped.nonsense += undecodable_;
+  s.address = options_.address;
   return s;
 }
 

@@ -138,6 +138,8 @@ std::optional<idl::TimeReply> encode(const protocol::TimeReply& message) {
   wire.local_request_sent_ns(ns(message.request_sent));
   wire.swarm_request_received_ns(ns(message.request_received));
   wire.swarm_reply_sent_ns(ns(message.reply_sent));
+  wire.believed(message.believed);
+  wire.rival(fitting_text(message.rival, protocol::kMaxTextBytes));
   return wire;
 }
 
@@ -148,7 +150,9 @@ std::optional<protocol::TimeReply> decode(const idl::TimeReply& wire) {
                              wire.term(),
                              local(wire.local_request_sent_ns()),
                              swarm(wire.swarm_request_received_ns()),
-                             swarm(wire.swarm_reply_sent_ns())};
+                             swarm(wire.swarm_reply_sent_ns()),
+                             wire.believed(),
+                             wire.rival().to_string()};
 }
 
 std::optional<idl::AgentStatus> encode(const protocol::AgentStatus& message) {
@@ -171,6 +175,7 @@ std::optional<idl::AgentStatus> encode(const protocol::AgentStatus& message) {
   wire.beacons_received(message.beacons_received);
   wire.beacons_missed(message.beacons_missed);
   wire.dropped(to_wire(message.dropped));
+  wire.address(fitting_text(message.address, protocol::kMaxTextBytes));
   return wire;
 }
 
@@ -195,12 +200,14 @@ std::optional<protocol::AgentStatus> decode(const idl::AgentStatus& wire) {
   message.beacons_received = wire.beacons_received();
   message.beacons_missed = wire.beacons_missed();
   message.dropped = from_wire(wire.dropped());
+  message.address = wire.address().to_string();
   return message;
 }
 
 std::optional<idl::CarrierSetpoint> encode(const protocol::Setpoint& message) {
   idl::CarrierSetpoint wire;
   wire.carrier(message.carrier);
+  wire.incarnation(message.incarnation);
   wire.sequence_number(message.sequence);
   wire.swarm_time_ns(ns(message.swarm_time));
   wire.position_w_m(numbers(message.position_w_m));
@@ -218,6 +225,7 @@ std::optional<idl::CarrierSetpoint> encode(const protocol::Setpoint& message) {
 std::optional<protocol::Setpoint> decode(const idl::CarrierSetpoint& wire) {
   protocol::Setpoint message;
   message.carrier = wire.carrier();
+  message.incarnation = wire.incarnation();
   message.sequence = wire.sequence_number();
   message.swarm_time = swarm(wire.swarm_time_ns());
   message.position_w_m = vector(wire.position_w_m());
@@ -235,6 +243,8 @@ std::optional<protocol::Setpoint> decode(const idl::CarrierSetpoint& wire) {
 std::optional<idl::CarrierState> encode(const protocol::CarrierState& message) {
   idl::CarrierState wire;
   wire.carrier(message.carrier);
+  wire.incarnation(message.incarnation);
+  wire.follows(message.follows);
   wire.sequence_number(message.sequence);
   wire.local_stamp_ns(ns(message.stamp));
   wire.position_w_m(numbers(message.position_w_m));
@@ -249,6 +259,8 @@ std::optional<idl::CarrierState> encode(const protocol::CarrierState& message) {
 std::optional<protocol::CarrierState> decode(const idl::CarrierState& wire) {
   protocol::CarrierState message;
   message.carrier = wire.carrier();
+  message.incarnation = wire.incarnation();
+  message.follows = wire.follows();
   message.sequence = wire.sequence_number();
   message.stamp = local(wire.local_stamp_ns());
   message.position_w_m = vector(wire.position_w_m());
@@ -263,6 +275,7 @@ std::optional<protocol::CarrierState> decode(const idl::CarrierState& wire) {
 std::optional<idl::LoadState> encode(const protocol::LoadState& message) {
   const Eigen::Quaterniond& q = message.orientation_w_b;
   idl::LoadState wire;
+  wire.incarnation(message.incarnation);
   wire.sequence_number(message.sequence);
   wire.local_stamp_ns(ns(message.stamp));
   wire.position_w_m(numbers(message.position_w_m));
@@ -275,6 +288,7 @@ std::optional<idl::LoadState> encode(const protocol::LoadState& message) {
 std::optional<protocol::LoadState> decode(const idl::LoadState& wire) {
   const std::array<double, 4>& xyzw = wire.orientation_w_b_xyzw();
   protocol::LoadState message;
+  message.incarnation = wire.incarnation();
   message.sequence = wire.sequence_number();
   message.stamp = local(wire.local_stamp_ns());
   message.position_w_m = vector(wire.position_w_m());

@@ -3,6 +3,7 @@
 #include <arpa/inet.h>
 #include <ifaddrs.h>
 #include <netinet/in.h>
+#include <unistd.h>
 
 #include <array>
 #include <memory>
@@ -30,6 +31,12 @@ Result<std::string> interface_address(const std::string& name_or_address) {
   return Error{"\"" + name_or_address +
                "\" is neither an IPv4 address nor a network interface with one; this machine has " +
                (known.empty() ? "none" : known)};
+}
+
+std::string address_of_this_process(const std::string& interface_address) {
+  std::array<char, 256> host{};  // cut short and without an end, where a name is longer
+  if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';
+  return interface_address + " (" + host.data() + ", pid " + std::to_string(::getpid()) + ")";
 }
 
 }  // namespace gyre::dds

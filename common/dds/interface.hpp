@@ -17,4 +17,7 @@ namespace gyre::dds {
 /// taken as it is. The error lists the interfaces there are.
 [[nodiscard]] Result<std::string> interface_address(const std::string& name_or_address);
 
+/// Where this process is, for people who look for it: "10.0.0.3 (vehicle-3, pid 4711)".
+[[nodiscard]] std::string address_of_this_process(const std::string& interface_address);
+
 }  // namespace gyre::dds

@@ -72,13 +72,15 @@ template <class Message>
 struct Writer<Message>::State : Outlet {};
 
 struct Node::Impl {
-  explicit Impl(Participant opened) : participant(std::move(opened)) {}
+  explicit Impl(Participant opened)
+      : participant(std::move(opened)), incarnation(static_cast<std::uint64_t>(now().time_since_epoch().count())) {}
   ~Impl();
 
   template <class Message>
   fast::api::Topic* topic(std::optional<CarrierId> carrier);
 
   Participant participant;
+  const std::uint64_t incarnation;
   std::shared_ptr<Counter> unsendable = std::make_shared<Counter>(0);
   std::shared_ptr<Counter> undecodable = std::make_shared<Counter>(0);
   std::map<std::string, fast::api::Topic*> topics;
@@ -118,6 +120,14 @@ Result<std::unique_ptr<Node>> Node::open(const NodeOptions& options) {
 
 int Node::domain() const {
   return static_cast<int>(impl_->participant->get_domain_id());
+}
+
+std::uint64_t Node::incarnation() const {
+  return impl_->incarnation;
+}
+
+const std::string& Node::address() const {
+  return impl_->participant.address();
 }
 
 void Node::answer_callers(const SeatAnswer& answer) {

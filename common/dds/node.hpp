@@ -9,6 +9,7 @@
 // Writers and readers exist for the messages of protocol/messages.hpp only; each message knows its topic and QoS
 // (topics.hpp). A handler runs in a Fast DDS thread: it stamps and enqueues (inbox.hpp) and does nothing else.
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -83,6 +84,10 @@ class Node {
   void read(std::function<void(Message, LocalTime)> handler, std::optional<CarrierId> carrier = std::nullopt);
 
   [[nodiscard]] int domain() const;
+  /// Tells one life of a process from the next, and from another's: the moment at which this node was opened. Not 0.
+  [[nodiscard]] std::uint64_t incarnation() const;
+  /// Where this process is, for people: "10.0.0.3 (vehicle-3, pid 4711)".
+  [[nodiscard]] const std::string& address() const;
 
   /// Answers everybody who asks at this node's seat (seat_lock.hpp); call it as often as the main loop turns.
   void answer_callers(const SeatAnswer& answer);

@@ -159,14 +159,16 @@ std::vector<SeatCall> ask_all_seats(int domain, Duration patience) {
   return calls;
 }
 
-Participant::Participant(SeatLock seat, fast::api::DomainParticipant* participant)
+Participant::Participant(SeatLock seat, std::string address, fast::api::DomainParticipant* participant)
     : seat_(std::move(seat)),
+      address_(std::move(address)),
       participant_(participant),
       publisher_(participant->create_publisher(fast::api::PUBLISHER_QOS_DEFAULT)),
       subscriber_(participant->create_subscriber(fast::api::SUBSCRIBER_QOS_DEFAULT)) {}
 
 Participant::Participant(Participant&& other) noexcept
     : seat_(std::move(other.seat_)),
+      address_(std::move(other.address_)),
       participant_(std::exchange(other.participant_, nullptr)),
       publisher_(other.publisher_),
       subscriber_(other.subscriber_) {}
@@ -196,7 +198,7 @@ Result<Participant> Participant::open(const NodeOptions& asked) {
     return Error{"Fast DDS gives no participant at " + options.interface + ", domain " +
                  std::to_string(options.domain) + "; if XML profiles are in use, look there first"};
   }
-  return Participant(std::move(taken.lock), participant);
+  return Participant(std::move(taken.lock), address_of_this_process(options.interface), participant);
 }
 
 void Participant::close() {

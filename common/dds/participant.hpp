@@ -25,14 +25,17 @@ class Participant {
   [[nodiscard]] fast::api::Subscriber& subscriber() const { return *subscriber_; }
 
   [[nodiscard]] const SeatLock& seat() const { return seat_; }
+  /// Of this process, for people.
+  [[nodiscard]] const std::string& address() const { return address_; }
 
   /// Deletes every entity; waits for callbacks that are running. Listeners have to live until then.
   void close();
 
  private:
-  Participant(SeatLock seat, fast::api::DomainParticipant* participant);
+  Participant(SeatLock seat, std::string address, fast::api::DomainParticipant* participant);
 
   SeatLock seat_;
+  std::string address_;
   fast::api::DomainParticipant* participant_;
   fast::api::Publisher* publisher_;
   fast::api::Subscriber* subscriber_;

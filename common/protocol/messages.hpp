@@ -53,7 +53,9 @@ struct HeldPlans {
   std::vector<NumberedSlice> neighbour;  ///< as it was offered
 };
 
-/// Topics carrier_N/time_request and time_reply: the four timestamps of a two-way exchange.
+/// Topics carrier_N/time_request and time_reply: the four timestamps of a two-way exchange. The reply is the one word
+/// that each of two agents of one carrier gets for itself, so it says which of them is believed as well: before a
+/// newcomer knows swarm time it knows whether it may fly.
 struct TimeRequest {
   CarrierId carrier = 0;
   std::uint64_t incarnation = 0;
@@ -69,6 +71,8 @@ struct TimeReply {
   LocalTime request_sent{};      ///< echoed
   SwarmTime request_received{};  ///< coordinator's clock
   SwarmTime reply_sent{};        ///< coordinator's clock
+  std::uint64_t believed = 0;    ///< the incarnation that is; 0: nobody was heard yet
+  std::string rival;             ///< where the other one is that claims this carrier; empty: none is heard
 };
 
 /// What was dropped, and why; in every process that listens.
@@ -89,7 +93,7 @@ enum class AgentState : std::uint8_t {
 /// Topic carrier_N/status. Carries back all the coordinator has told, so that a restarted one can learn it.
 struct AgentStatus {
   CarrierId carrier = 0;
-  std::uint64_t incarnation = 0;  ///< differs after every start of the agent
+  std::uint64_t incarnation = 0;  ///< differs after every start of the agent, never 0
   std::uint64_t sequence = 0;
   std::uint64_t term = 0;
   AgentState state = AgentState::kWaiting;
@@ -104,11 +108,13 @@ struct AgentStatus {
   std::uint64_t beacons_received = 0;
   std::uint64_t beacons_missed = 0;
   DropCounts dropped;
+  std::string address;  ///< where this process is, for people; at most kMaxTextBytes
 };
 
 /// Topic carrier_N/setpoint, agent N to its vehicle.
 struct Setpoint {
   CarrierId carrier = 0;
+  std::uint64_t incarnation = 0;  ///< of the agent; a vehicle flies those of one agent at a time
   std::uint64_t sequence = 0;
   SwarmTime swarm_time{};  ///< for which it holds
   Eigen::Vector3d position_w_m = Eigen::Vector3d::Zero();
@@ -125,6 +131,8 @@ struct Setpoint {
 /// Topic carrier_N/state, vehicle to agent N and ground.
 struct CarrierState {
   CarrierId carrier = 0;
+  std::uint64_t incarnation = 0;  ///< of the process that tells it
+  std::uint64_t follows = 0;      ///< of the agent whose setpoints are flown; 0: none are
   std::uint64_t sequence = 0;
   LocalTime stamp{};  ///< the vehicle's clock
   Eigen::Vector3d position_w_m = Eigen::Vector3d::Zero();
@@ -137,6 +145,7 @@ struct CarrierState {
 
 /// Topic load/state, simulator or motion capture to ground.
 struct LoadState {
+  std::uint64_t incarnation = 0;  ///< of the process that tells it
   std::uint64_t sequence = 0;
   LocalTime stamp{};
   Eigen::Vector3d position_w_m = Eigen::Vector3d::Zero();

@@ -44,8 +44,9 @@ Agreement::Step Agreement::step(SwarmTime now, const std::vector<CarrierId>& unc
     }
     return rehearsal_->advance() ? rehearsal_done(now) : Step::kWait;
   }
-  if (unconfirmed.empty()) return Step::kGo;
-  if (start_ - now >= options_.go_margin) return Step::kWait;
+  if (start_ - now >= options_.go_margin) return unconfirmed.empty() ? Step::kGo : Step::kWait;
+  // Who hung meanwhile finds all confirmations at once, and the start long past.
+  if (unconfirmed.empty()) return give_up("it was decided too late: this process hung");
   return give_up("not confirmed in time by " + listed("carrier", unconfirmed));
 }
 

@@ -62,10 +62,10 @@ void Coordinator::on(LocalTime now, const protocol::AgentStatus& status, Outputs
       ++dropped_.nonsense;
       return;
     case Fleet::Verdict::kDuplicate:
+    case Fleet::Verdict::kRival:
       ++dropped_.duplicate;
       return;
     case Fleet::Verdict::kLate:
-    case Fleet::Verdict::kRival:
       ++dropped_.late;
       return;
   }
@@ -97,10 +97,11 @@ void Coordinator::on(LocalTime now, const TimeRequestArrived& event, Outputs& ou
   }
   swarm_.fleet.heard(now, request.carrier, request.incarnation);
   if (!leading_) return;  // no swarm time to give yet
+  const Fleet::Standing standing = swarm_.fleet.standing(now, request.carrier, request.incarnation);
   out.time_reply =
-      protocol::TimeReply{request.carrier,          request.incarnation, request.sequence,
-                          leading_->term(),         request.sent,        leading_->swarm_time(event.arrived),
-                          leading_->swarm_time(now)};
+      protocol::TimeReply{request.carrier,           request.incarnation, request.sequence,
+                          leading_->term(),          request.sent,        leading_->swarm_time(event.arrived),
+                          leading_->swarm_time(now), standing.believed,   standing.rival};
 }
 
 void Coordinator::on(LocalTime /*now*/, const protocol::Beacon& beacon, Outputs& out) {
@@ -123,6 +124,10 @@ void Coordinator::on(LocalTime now, const protocol::Health& health, Outputs& /*o
 void Coordinator::on(LocalTime now, const protocol::CarrierState& state, Outputs& out) {
   if (!swarm_.has(state.carrier) || !sane(state)) {
     ++dropped_.nonsense;
+    return;
+  }
+  if (!swarm_.fleet.believes(now, state)) {
+    ++dropped_.duplicate;
     return;
   }
   if (leading_) leading_->seen(now, state, out);

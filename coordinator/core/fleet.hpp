@@ -1,15 +1,17 @@
 #pragma once
 // Who is there: what every agent said last, who has fallen silent, and who is there twice.
 //
-// An agent that starts again is another life of the same carrier, told by its incarnation. The life that was heard
-// first is believed until it falls silent: then the other one is, and what the dead still had under way is passed over.
-// While both speak, two agents claim one carrier, and the newcomer is not believed.
+// Of the lives of an agent one is believed (common/protocol/incumbent.hpp): the one that flies. That is the one whose
+// setpoints the vehicle says to follow; where no vehicle says so, one that has a course rather than one that has none;
+// else the one that was heard first. What the dead still had under way is passed over.
 
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/protocol/counting.hpp"
+#include "common/protocol/incumbent.hpp"
 #include "common/protocol/liveness.hpp"
 #include "common/protocol/messages.hpp"
 
@@ -23,9 +25,24 @@ class Fleet {
   Verdict take(LocalTime now, const protocol::AgentStatus& status);
   /// Any other sign of this life.
   void heard(LocalTime now, CarrierId carrier, std::uint64_t incarnation);
+  /// Whether to believe what a vehicle says of itself: false for another one that tells where this carrier is.
+  [[nodiscard]] bool believes(LocalTime now, const protocol::CarrierState& state);
 
-  /// Carriers that two agents claim.
-  [[nodiscard]] std::vector<CarrierId> claimed_twice(LocalTime now) const;
+  /// What an agent has to know of its own place.
+  struct Standing {
+    std::uint64_t believed = 0;  ///< the incarnation that is; 0: none is heard
+    std::string rival;           ///< where the other one is; empty: there is none
+  };
+  [[nodiscard]] Standing standing(LocalTime now, CarrierId carrier, std::uint64_t incarnation) const;
+
+  /// Carriers that two agents claim, and where these are.
+  struct Claim {
+    CarrierId carrier;
+    std::string believed, rival;
+  };
+  [[nodiscard]] std::vector<Claim> claimed_twice(LocalTime now) const;
+  /// Carriers of which two vehicles, or simulators, tell where they are.
+  [[nodiscard]] std::vector<CarrierId> told_twice(LocalTime now) const;
 
   struct Change {
     CarrierId carrier;
@@ -46,22 +63,27 @@ class Fleet {
   [[nodiscard]] std::vector<CarrierId> missing(LocalTime now, Predicate holds) const {
     std::vector<CarrierId> out;
     for (const auto& [id, member] : members_) {
-      if (member.liveness.silent(now) || !member.status || !holds(*member.status)) out.push_back(id);
+      if (member.agent.silent(now) || !member.status || !holds(*member.status)) out.push_back(id);
     }
     return out;
   }
 
  private:
+  /// Vehicles are heard over the radio, which may be out for a second; and nobody waits for the next one.
+  static constexpr Duration kVehicleSucceeded = std::chrono::seconds(2);
+
   struct Member {
-    explicit Member(Duration timeout) : liveness(timeout), hearing(timeout) {}
-    protocol::Liveness liveness;
+    explicit Member(Duration timeout) : agent(timeout), hearing(timeout) {}
+    /// Whether this one flies, by what is known beside the order in which they were heard.
+    [[nodiscard]] bool prefers(LocalTime now, const protocol::AgentStatus& newcomer) const;
+
+    protocol::Incumbent agent;
     protocol::Liveness hearing;
-    protocol::SequenceJudge sequences;  ///< of the life that is believed
-    std::optional<protocol::AgentStatus> status;
-    struct Rival {
-      LocalTime since{}, last{};
-    };
-    std::optional<Rival> rival;  ///< any lives that are heard beside the one that is believed
+    protocol::SequenceJudge sequences;            ///< of the life that is believed
+    std::optional<protocol::AgentStatus> status;  ///< the last one of it
+    std::string rival_address;
+    protocol::Incumbent vehicle{kVehicleSucceeded};
+    std::uint64_t followed = 0;  ///< by the vehicle, as it said last
     bool known_present = false;
     bool restarted = false;
   };

@@ -266,11 +266,11 @@ std::optional<std::string> Leading::obstacle(LocalTime now, bool departs) const 
   if (const auto gone = swarm_.why_out_of_touch(now)) {
     return *gone + ", and whoever does not hear of a change flies on as before";
   }
-  if (auto twice = swarm_.why_claimed_twice(now)) return twice;
   const PlanNumber plan = protocol::plans_of(course_).back();
   if (auto refusal = swarm_.refusal_of(plan)) return refusal;
   // In motion it is too late to be choosy: whatever a person asks for then is better than what is.
   if (!departs) return std::nullopt;
+  if (auto twice = swarm_.why_claimed_twice(now)) return twice;
   if (auto complaint = swarm_.readiness.complaint(now)) return complaint;
   for (const CarrierId id : swarm_.carriers) {
     if (const auto off_m = paths_.off_m(now, id); off_m && *off_m > kAway_m) {

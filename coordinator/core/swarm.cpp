@@ -40,9 +40,18 @@ std::optional<std::string> Swarm::why_out_of_touch(LocalTime now) const {
 }
 
 std::optional<std::string> Swarm::why_claimed_twice(LocalTime now) const {
-  const auto who = fleet.claimed_twice(now);
-  if (who.empty()) return std::nullopt;
-  return listed("carrier", who) + ": two agents claim it; end one of them";
+  const auto claims = fleet.claimed_twice(now);
+  if (claims.empty()) {
+    const auto told = fleet.told_twice(now);
+    if (told.empty()) return std::nullopt;
+    return listed("carrier", told) + ": two vehicles, or simulators, tell where it is; end one of them";
+  }
+  const Fleet::Claim& first = claims.front();
+  std::string others;
+  if (claims.size() > 1) others = text("; and %zu more carriers", claims.size() - 1);
+  return text("carrier %u: two agents claim it, %s, which is believed, and %s; end one of them", first.carrier,
+              first.believed.c_str(), first.rival.c_str()) +
+         others;
 }
 
 std::optional<std::string> Swarm::refusal_of(const protocol::PlanNumber& plan) const {

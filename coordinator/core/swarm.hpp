@@ -25,7 +25,7 @@ struct Swarm {
   [[nodiscard]] std::vector<CarrierId> out_of_touch(LocalTime now) const;
   /// The same in words, "carrier 3 is silent"; absent: nobody.
   [[nodiscard]] std::optional<std::string> why_out_of_touch(LocalTime now) const;
-  /// "carrier 3: two agents claim it; end one of them"; absent: nobody.
+  /// "carrier 3: two agents claim it, A, which is believed, and B; end one of them", or two vehicles; absent: nobody.
   [[nodiscard]] std::optional<std::string> why_claimed_twice(LocalTime now) const;
 
   /// Why an agent cannot fly this plan, in its own words; absent: none has said so.

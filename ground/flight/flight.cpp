@@ -88,11 +88,13 @@ void Flight::take(const Event& event) {
     monitor_.see(*status, event.arrived);
     if (monitor_.under_way(event.arrived)) record_.see(*status);
   } else if (const auto* carrier = std::get_if<protocol::CarrierState>(&event.message)) {
+    if (!world_.believes(event.arrived, carrier->incarnation)) return;
     monitor_.see(*carrier, event.arrived);
     if (monitor_.under_way(event.arrived)) {
       record_.see(*carrier, monitor_.phase(event.arrived) == FlightPhase::kFlying);
     }
   } else if (const auto* load = std::get_if<protocol::LoadState>(&event.message)) {
+    if (!world_.believes(event.arrived, load->incarnation)) return;
     if (monitor_.under_way(event.arrived)) record_.see(*load, event.arrived);
   } else if (const auto* health = std::get_if<protocol::Health>(&event.message)) {
     if (monitor_.under_way(event.arrived)) record_.see(*health);

@@ -11,6 +11,7 @@
 
 #include "common/dds/inbox.hpp"
 #include "common/mission/mission.hpp"
+#include "common/protocol/incumbent.hpp"
 #include "ground/flight/core/flight_certificate.hpp"
 #include "ground/flight/core/flight_monitor.hpp"
 #include "ground/flight/core/flight_record.hpp"
@@ -69,6 +70,7 @@ class Flight {
   FlightRecord record_;
   FlightCertificate certificate_;
   StarvationJudge starvation_;
+  protocol::Incumbent world_{std::chrono::seconds(1)};  ///< whose load and carriers these are
   std::optional<LocalTime> release_deadline_;
   bool released_ = false;
   int interrupts_ = 0;

@@ -15,7 +15,7 @@ void Onward::take(const protocol::HeldPlans& held) {
   for (auto it = slices_.begin(); it != slices_.end();) {
     it = std::find(flown.begin(), flown.end(), it->first) == flown.end() ? slices_.erase(it) : std::next(it);
   }
-  for (const protocol::NumberedSlice& numbered : held.slices) slices_[numbered.number] = numbered.slice;
+  for (const protocol::NumberedSlice& numbered : held.slices) slices_.emplace(numbered.number, numbered.slice);
 }
 
 std::optional<protocol::Setpoint> Onward::at(SwarmTime now) const {

@@ -31,6 +31,10 @@ std::optional<std::string> SetpointJudge::objection(const protocol::Setpoint& se
     return text;
   }
   Last& last = last_.at(setpoint.carrier);
+  if (!last.agent.believes(arrived, setpoint.incarnation)) {
+    ++dropped_.duplicate;
+    return "carrier " + std::to_string(setpoint.carrier) + ": a setpoint of another agent than the one that flies it";
+  }
   bool fresh_start = !last.any || arrived - last.arrived > from_seconds(kExtrapolationHorizon_s);
   const Stamp stamp = fresh_start ? Stamp::kGoesOn : judge_stamp(last, setpoint.swarm_time, arrived);
   if (stamp == Stamp::kContradicts) {
@@ -46,8 +50,25 @@ std::optional<std::string> SetpointJudge::objection(const protocol::Setpoint& se
     ++dropped_.late;
     return "carrier " + std::to_string(setpoint.carrier) + ": a setpoint older than the one being flown";
   }
-  last = {true, setpoint.swarm_time, arrived, stamp == Stamp::kBeginsAnew};
+  last.any = true;
+  last.swarm_time = setpoint.swarm_time;
+  last.arrived = arrived;
+  last.began_anew = stamp == Stamp::kBeginsAnew;
+  last.agreeing = 0;
   return std::nullopt;
+}
+
+std::uint64_t SetpointJudge::follows(CarrierId carrier, LocalTime now) const {
+  const protocol::Incumbent& agent = last_.at(carrier).agent;
+  return agent.silent(now) ? 0 : *agent.who();
+}
+
+std::vector<CarrierId> SetpointJudge::contested(LocalTime now) const {
+  std::vector<CarrierId> out;
+  for (const auto& [carrier, last] : last_) {
+    if (last.agent.contested(now)) out.push_back(carrier);
+  }
+  return out;
 }
 
 std::optional<std::string> SetpointJudge::nonsense(const protocol::Setpoint& s) const {

@@ -8,14 +8,19 @@
 // A stamp contradicts when it is further from this clock, by a second, than that of the setpoint before: flown, it
 // would make those after it old.
 //
+// Two agents may claim one carrier, and only the vehicle hears both: it flies those of one of them, until that one
+// falls silent (common/protocol/incumbent.hpp).
+//
 // Newer is judged by swarm time, which survives a restart of the agent (its sequence does not). A carrier whose last
 // accepted setpoint is older than the extrapolation horizon takes any time: the swarm may have started anew.
 
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/mechanics/plan.hpp"
+#include "common/protocol/incumbent.hpp"
 #include "common/protocol/messages.hpp"
 
 namespace gyre::simulator {
@@ -42,10 +47,16 @@ class SetpointJudge {
   /// Whether the last one that is flown was stamped by another clock than those before.
   [[nodiscard]] bool began_anew(CarrierId carrier) const { return last_.at(carrier).began_anew; }
 
+  /// The agent whose setpoints are flown; 0: none are.
+  [[nodiscard]] std::uint64_t follows(CarrierId carrier, LocalTime now) const;
+  /// Carriers that get setpoints of two agents.
+  [[nodiscard]] std::vector<CarrierId> contested(LocalTime now) const;
+
   [[nodiscard]] const protocol::DropCounts& dropped() const { return dropped_; }
 
  private:
   struct Last {
+    protocol::Incumbent agent{protocol::kSucceeded, Duration::zero()};
     bool any = false;
     SwarmTime swarm_time{};
     LocalTime arrived{};

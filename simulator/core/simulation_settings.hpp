@@ -19,6 +19,7 @@ struct SimulationSettings {
   WindSettings wind;
   std::uint64_t seed = 1;
   Duration tick = std::chrono::milliseconds(2);
+  std::uint64_t incarnation = 0;  ///< of this process: whoever hears two simulators can tell them apart
 };
 
 }  // namespace gyre::simulator

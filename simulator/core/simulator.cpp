@@ -79,7 +79,8 @@ std::optional<Error> objection(const mechanics::Plan& plan, const SimulationSett
 struct Simulator::World {
   World(const mechanics::Plan& plan, const SimulationSettings& settings, LocalTime start_time,
         std::vector<Vehicle> all_vehicles, double longest_rest_m)
-      : tick(settings.tick),
+      : incarnation(settings.incarnation),
+        tick(settings.tick),
         ticks_per_publication(std::max<std::int64_t>(1, kPublicationPeriod / settings.tick)),
         start(start_time),
         vehicles(std::move(all_vehicles)),
@@ -123,10 +124,18 @@ struct Simulator::World {
     report_drops(arrived, out);
   }
 
-  template <class Message>
-  void learn(const Message& message) {
-    const auto found = index.find(message.carrier);
-    if (found != index.end()) vehicles[found->second].onward.take(message);
+  void learn(LocalTime arrived, const protocol::AgentStatus& status) {
+    const auto found = index.find(status.carrier);
+    if (found == index.end()) return;
+    // What another agent follows is not what this vehicle goes on by.
+    const std::uint64_t followed = judge.follows(status.carrier, arrived);
+    if (followed == 0 || followed == status.incarnation) vehicles[found->second].onward.take(status);
+  }
+
+  /// Said once, and perhaps before the first setpoint; a number means the same plan whoever tells it.
+  void learn(const protocol::HeldPlans& held) {
+    const auto found = index.find(held.carrier);
+    if (found != index.end()) vehicles[found->second].onward.take(held);
   }
 
   void report_drops(LocalTime now, Outputs& out) {
@@ -147,6 +156,9 @@ struct Simulator::World {
       if (vehicle.led.silent(now)) silent.push_back(vehicle.id);
     }
     if (!silent.empty()) return "no setpoints for " + listed("carrier", silent);
+    if (const auto twice = judge.contested(now); !twice.empty()) {
+      return "setpoints of two agents for " + listed("carrier", twice) + "; end one of them";
+    }
     if (now - time() > kToleratedLag) return text("%.2f s behind real time", seconds(now - time()));
     return std::nullopt;
   }
@@ -227,13 +239,20 @@ struct Simulator::World {
     for (std::size_t i = 0; i < vehicles.size(); ++i) {
       const Anchor anchor = vehicles[i].anchor(seconds(simulated()));
       const CablePull pull = integrator.dynamics().pull(i, load, anchor);
-      out.carriers.push_back({vehicles[i].id, sequence, time(), anchor.position_w_m, anchor.velocity_w_m_s,
-                              pull.tension_n, pull.length_m, anchor.unstretched_length_m, anchor.unstretched_rate_m_s});
+      out.carriers.push_back({vehicles[i].id, incarnation, judge.follows(vehicles[i].id, time()), sequence, time(),
+                              anchor.position_w_m, anchor.velocity_w_m_s, pull.tension_n, pull.length_m,
+                              anchor.unstretched_length_m, anchor.unstretched_rate_m_s});
     }
-    out.load = protocol::LoadState{
-        sequence, time(), load.position_w_m, load.velocity_w_m_s, load.orientation_w_b, load.angular_velocity_b_rad_s};
+    out.load = protocol::LoadState{incarnation,
+                                   sequence,
+                                   time(),
+                                   load.position_w_m,
+                                   load.velocity_w_m_s,
+                                   load.orientation_w_b,
+                                   load.angular_velocity_b_rad_s};
   }
 
+  std::uint64_t incarnation;
   Duration tick;
   std::int64_t ticks_per_publication;
   LocalTime start;  // of simulated time; later than the real start by what was skipped
@@ -293,7 +312,7 @@ Outputs Simulator::step(LocalTime now, const Event& event) {
   if (const auto* setpoint = std::get_if<protocol::Setpoint>(&event)) {
     world_->receive(now, *setpoint, out);
   } else if (const auto* status = std::get_if<protocol::AgentStatus>(&event)) {
-    if (sane(*status)) world_->learn(*status);
+    if (sane(*status)) world_->learn(now, *status);
   } else if (const auto* held = std::get_if<protocol::HeldPlans>(&event)) {
     if (sane(*held)) world_->learn(*held);
   } else {

@@ -322,7 +322,7 @@ TEST_F(AgentTest, CountsDuplicatesLateOnesAndNonsense) {
   state.carrier = 3;
   tell(state);
   EXPECT_EQ(agent_->dropped().nonsense, before.nonsense + 5);
-  tell(TimeReplyArrived{{1, 77, 1, kTerm, now_, swarm(), swarm()}, now_});
+  tell(TimeReplyArrived{{1, 77, 1, kTerm, now_, swarm(), swarm(), 0, {}}, now_});
   EXPECT_EQ(agent_->dropped().nonsense, before.nonsense + 6) << "a reply to a former life";
 }
 

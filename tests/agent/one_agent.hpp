@@ -36,6 +36,7 @@ class AgentTest : public testing::Test {
     AgentOptions options;
     options.carrier = 1;
     options.incarnation = incarnation;
+    options.address = "here";
     options.vehicle = vehicle;
     return std::make_unique<Agent>(options);
   }
@@ -62,7 +63,7 @@ class AgentTest : public testing::Test {
 
   protocol::TimeReply reply_to(const protocol::TimeRequest& request) {
     const SwarmTime then(request.sent.time_since_epoch() + kOffset + off_);
-    return {1, request.incarnation, request.sequence, term_, request.sent, then, then};
+    return {1, request.incarnation, request.sequence, term_, request.sent, then, then, believed_, rival_};
   }
 
   /// Lets time pass; a coordinator that `answers` the time requests and beacons.
@@ -187,7 +188,9 @@ class AgentTest : public testing::Test {
   }
 
   std::uint64_t term_ = kTerm;
-  Duration off_{};                         ///< the coordinator's swarm time
+  Duration off_{};              ///< the coordinator's swarm time
+  std::uint64_t believed_ = 0;  ///< whom it takes for this carrier's agent; 0: whoever asks
+  std::string rival_;
   LocalTime now_{-std::chrono::hours(1)};  // below zero: nothing may depend on where a clock begins
   std::unique_ptr<Agent> agent_;
   std::optional<Course> course_;

@@ -169,6 +169,8 @@ TEST(Agreement, GoesWhenAllHaveConfirmedAndGivesUpWhenItIsTooLate) {
   EXPECT_EQ(agreement.step(SwarmTime{milliseconds(100)}, {}), Agreement::Step::kGo);
   const SwarmTime last = late.start() - options.go_margin;
   EXPECT_EQ(late.step(last, {2}), Agreement::Step::kWait);
+  Agreement hung = late;
+  EXPECT_EQ(hung.step(last + seconds(3), {}), Agreement::Step::kGiveUp) << "its start is long past";
   EXPECT_EQ(late.step(last + Duration(1), {2}), Agreement::Step::kGiveUp);
   EXPECT_EQ(late.why(), "not confirmed in time by carrier 2");
 }

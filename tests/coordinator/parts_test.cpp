@@ -36,7 +36,8 @@ TEST(Fleet, TellsWhoCameWentAndCameBackAnother) {
   changes = fleet.changes(kNow + milliseconds(451));
   ASSERT_EQ(changes.size(), 1U);
   EXPECT_TRUE(changes[0].lost);
-  EXPECT_EQ(fleet.take(kNow + seconds(1), status(1, 1, 2)), Fleet::Verdict::kTaken) << "a new life counts from one";
+  EXPECT_EQ(fleet.take(kNow + milliseconds(700), status(1, 1, 2)), Fleet::Verdict::kRival) << "not yet";
+  EXPECT_EQ(fleet.take(kNow + seconds(1), status(1, 2, 2)), Fleet::Verdict::kTaken) << "a new life counts from one";
   changes = fleet.changes(kNow + seconds(1));
   ASSERT_EQ(changes.size(), 1U);
   EXPECT_TRUE(changes[0].restarted);
@@ -49,14 +50,15 @@ TEST(Fleet, TheDeadConfirmNothing) {
   former.confirmed = 4;
   EXPECT_EQ(fleet.take(kNow, former), Fleet::Verdict::kTaken);
   const LocalTime later = kNow + milliseconds(451);
-  EXPECT_EQ(fleet.take(later, status(1, 1, 2)), Fleet::Verdict::kTaken);
+  (void)fleet.take(later - milliseconds(300), status(1, 1, 2));
+  EXPECT_EQ(fleet.take(later, status(1, 2, 2)), Fleet::Verdict::kTaken);
   (void)fleet.changes(later);
   ++former.sequence;  // it was on its way for long
   EXPECT_EQ(fleet.take(later, former), Fleet::Verdict::kRival);
   EXPECT_EQ(fleet.status(1)->incarnation, 2U);
   EXPECT_EQ(fleet.status(1)->confirmed, 0U);
   EXPECT_TRUE(fleet.changes(later).empty());
-  EXPECT_EQ(fleet.take(later, status(1, 2, 2)), Fleet::Verdict::kTaken);
+  EXPECT_EQ(fleet.take(later, status(1, 3, 2)), Fleet::Verdict::kTaken);
 }
 
 TEST(Fleet, AnySignOfTheLifeThatIsBelievedKeepsItAlive) {

@@ -45,6 +45,7 @@ class SwarmOfAgents {
     if (offers_.count(id) > 0) tell_agent(id, offers_.at(id));
   }
   void stop_twin(CarrierId id) { twins_.erase(id); }
+  agent::Agent& twin(CarrierId id) { return *twins_.at(id); }
 
   void tell(const Event& event) {
     if (!coordinator_) return;
@@ -94,15 +95,10 @@ class SwarmOfAgents {
     return answer_to(command.id, patience);
   }
   [[nodiscard]] std::string command(protocol::CommandKind kind, Duration patience = std::chrono::seconds(10)) {
-    protocol::Command command;
-    command.kind = kind;
-    return this->command(command, patience);
+    return command(protocol::Command{0, kind, 1.0, {}, {}}, patience);
   }
   [[nodiscard]] std::string pace(double pace, Duration patience = std::chrono::seconds(10)) {
-    protocol::Command command;
-    command.kind = protocol::CommandKind::kPace;
-    command.pace = pace;
-    return this->command(command, patience);
+    return command(protocol::Command{0, protocol::CommandKind::kPace, pace, {}, {}}, patience);
   }
   [[nodiscard]] std::string retune(const Job& job, Duration patience = std::chrono::seconds(10)) {
     const std::uint64_t id = ++commands_;
@@ -139,6 +135,7 @@ class SwarmOfAgents {
   std::optional<protocol::Beacon> beacon;
   std::optional<protocol::CoordinatorStatus> status;
   std::map<CarrierId, protocol::Setpoint> setpoints;
+  int twin_setpoints = 0;
   std::map<CarrierId, protocol::AgentStatus> statuses;
   std::set<CarrierId> deaf;  ///< hear no beacon and no time; plans are told again until they arrive
   std::set<CarrierId> mute;  ///< nothing they say arrives
@@ -161,6 +158,7 @@ class SwarmOfAgents {
     agent::AgentOptions options;
     options.carrier = id;
     options.incarnation = ++incarnations_;
+    options.address = "agent " + std::to_string(options.incarnation);
     options.vehicle = vehicle;
     options.vehicle_wait = Duration::zero();
     return std::make_unique<agent::Agent>(options);
@@ -181,7 +179,9 @@ class SwarmOfAgents {
       const agent::Outputs out = step(*found->second, id, event);
       if (out.setpoint) setpoints[id] = *out.setpoint;
     }
-    if (const auto found = twins_.find(id); found != twins_.end()) step(*found->second, id, event);
+    if (const auto found = twins_.find(id); found != twins_.end()) {
+      if (step(*found->second, id, event).setpoint) ++twin_setpoints;
+    }
   }
 
   agent::Outputs step(agent::Agent& agent, CarrierId id, const agent::Event& event) {
@@ -209,8 +209,7 @@ class SwarmOfAgents {
   Job job_;
   CoordinatorOptions options_;
   std::unique_ptr<Coordinator> coordinator_;
-  std::map<CarrierId, std::unique_ptr<agent::Agent>> agents_;
-  std::map<CarrierId, std::unique_ptr<agent::Agent>> twins_;
+  std::map<CarrierId, std::unique_ptr<agent::Agent>> agents_, twins_;
   std::map<CarrierId, protocol::PlanOffer> offers_;
   std::map<CarrierId, protocol::HeldPlans> held_;
   std::uint64_t incarnations_ = 0;

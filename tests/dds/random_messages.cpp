@@ -39,18 +39,18 @@ template <class V> void each_field(protocol::NumberedSlice& m, V& v) { auto& [a,
 template <class V> void each_field(protocol::PlanOffer& m, V& v) { auto& [a, b, c, d, e] = m; visit_all(v, a, b, c, d, e); }
 template <class V> void each_field(protocol::HeldPlans& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
 template <class V> void each_field(protocol::TimeRequest& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
-template <class V> void each_field(protocol::TimeReply& m, V& v) { auto& [a, b, c, d, e, f, g] = m; visit_all(v, a, b, c, d, e, f, g); }
+template <class V> void each_field(protocol::TimeReply& m, V& v) { auto& [a, b, c, d, e, f, g, h, i] = m; visit_all(v, a, b, c, d, e, f, g, h, i); }
 template <class V> void each_field(protocol::DropCounts& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
 template <class V> void each_field(protocol::AgentStatus& m, V& v) {
-  auto& [a, b, c, d, e, f, g, h, i, j, k, l, n, o, p, q] = m;
-  visit_all(v, a, b, c, d, e, f, g, h, i, j, k, l, n, o, p, q);
+  auto& [a, b, c, d, e, f, g, h, i, j, k, l, n, o, p, q, r] = m;
+  visit_all(v, a, b, c, d, e, f, g, h, i, j, k, l, n, o, p, q, r);
 }
 template <class V> void each_field(protocol::Setpoint& m, V& v) {
-  auto& [a, b, c, d, e, f, g, h, i, j, k, l] = m;
-  visit_all(v, a, b, c, d, e, f, g, h, i, j, k, l);
+  auto& [a, b, c, d, e, f, g, h, i, j, k, l, n] = m;
+  visit_all(v, a, b, c, d, e, f, g, h, i, j, k, l, n);
 }
-template <class V> void each_field(protocol::CarrierState& m, V& v) { auto& [a, b, c, d, e, f, g, h, i] = m; visit_all(v, a, b, c, d, e, f, g, h, i); }
-template <class V> void each_field(protocol::LoadState& m, V& v) { auto& [a, b, c, d, e, f] = m; visit_all(v, a, b, c, d, e, f); }
+template <class V> void each_field(protocol::CarrierState& m, V& v) { auto& [a, b, c, d, e, f, g, h, i, j, k] = m; visit_all(v, a, b, c, d, e, f, g, h, i, j, k); }
+template <class V> void each_field(protocol::LoadState& m, V& v) { auto& [a, b, c, d, e, f, g] = m; visit_all(v, a, b, c, d, e, f, g); }
 template <class V> void each_field(protocol::Command& m, V& v) { auto& [a, b, c, d, e] = m; visit_all(v, a, b, c, d, e); }
 template <class V> void each_field(protocol::CommandReply& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
 template <class V> void each_field(protocol::CoordinatorStatus& m, V& v) { auto& [a, b, c, d, e, f, g, h, i] = m; visit_all(v, a, b, c, d, e, f, g, h, i); }

@@ -70,6 +70,20 @@ class WatchTest : public testing::Test {
   protocol::LoadState load_;
 };
 
+TEST_F(WatchTest, ASecondSimulatorThatComesAndGoesIsNotTheLoad) {
+  for (int i = 0; i < 200; ++i) {
+    hear_all();
+    if (i > 50 && i < 150) {
+      protocol::LoadState other = load_;
+      other.incarnation = 5;
+      other.position_w_m.x() += 0.5;
+      watch_.see(other, now_ + milliseconds(3));
+    }
+    now_ += milliseconds(10);
+  }
+  EXPECT_LT(account().load.displacement_max_m, 1e-9);
+}
+
 TEST_F(WatchTest, IsCalmOnlyWhenEverythingIsHeardAndAsItShouldBe) {
   EXPECT_EQ(complaint(), "the coordinator is not heard");
   watch_.see(beacon_, now_);

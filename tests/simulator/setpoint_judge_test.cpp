@@ -1,4 +1,4 @@
-// Stamps that contradict those before: dropped alone, believed when several agree.
+// Stamps that contradict those before: dropped alone, believed when several agree. And agents: one is followed.
 
 #include "simulator/core/setpoint_judge.hpp"
 
@@ -6,6 +6,7 @@
 
 #include "simulator/core/age_judge.hpp"
 #include "simulator/core/simulator.hpp"
+#include "tests/simulator/agents.hpp"
 #include "tests/simulator/rigs.hpp"
 
 namespace gyre::simulator {
@@ -67,6 +68,30 @@ TEST_F(StampTest, IsNotBelievedWhenLiesDifferOrHonestOnesAreAmongThem) {
   }
 }
 
+TEST_F(StampTest, OfAnotherAgentIsNotFlownWhileTheFirstIsHeard) {
+  const auto say = [this](std::uint64_t agent) {
+    protocol::Setpoint s = setpoint(at_ += milliseconds(10));
+    s.incarnation = agent;
+    return !judge_.objection(s, kStart + at_);
+  };
+  at_ += milliseconds(300);
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_TRUE(say(7));
+    EXPECT_FALSE(say(8));
+  }
+  EXPECT_EQ(judge_.dropped().duplicate, 100U);
+  EXPECT_EQ(judge_.follows(1, kStart + at_), 7U);
+  EXPECT_EQ(judge_.contested(kStart + at_), std::vector<CarrierId>{1});
+  // The first one dies: within a quarter of a second the other one flies the carrier.
+  int dropped = 0;
+  while (dropped < 100 && !say(8)) ++dropped;
+  EXPECT_LE(dropped, 25);
+  EXPECT_TRUE(say(8));
+  EXPECT_EQ(judge_.follows(1, kStart + at_), 8U);
+  EXPECT_TRUE(judge_.contested(kStart + at_).empty());
+  EXPECT_EQ(judge_.follows(1, kStart + at_ + milliseconds(300)), 0U);
+}
+
 TEST(Stamp, OfAnHourAheadMovesNoLoadNorDoesAClockFoundAnew) {
   const mechanics::Plan plan = rigs::paper();
   const auto slices = mechanics::slices(plan);
@@ -100,6 +125,51 @@ TEST(Stamp, OfAnHourAheadMovesNoLoadNorDoesAClockFoundAnew) {
   }
   EXPECT_LT(furthest_m, 1e-3);
   EXPECT_EQ(simulator.dropped().nonsense, 1U + slices.size() * (kAgreeing - 1));
+}
+
+TEST(Simulator, FollowsOneOfTwoAgentsSaysWhichAndGoesOnByItsCourseAlone) {
+  const mechanics::Plan plan = rigs::paper();
+  const rigs::Agents agents(plan, 5.0), rivals(plan, 500.0);
+  SimulationSettings settings;
+  settings.incarnation = 99;
+  auto made = Simulator::create(plan, settings, kStart);
+  ASSERT_TRUE(made.ok());
+  Simulator simulator = std::move(made).value();
+  const auto say = [](auto message, std::uint64_t incarnation) {
+    message.incarnation = incarnation;
+    return message;
+  };
+  std::uint64_t follows = 0;
+  double furthest_m = 0.0;
+  for (Duration t{}; t < std::chrono::seconds(20); t += milliseconds(10)) {
+    for (std::size_t i = 0; i < agents.count(); ++i) {
+      const bool silent = i == 0 && t > std::chrono::seconds(10);
+      if (!silent) {
+        (void)simulator.step(kStart + t, say(agents.setpoint(i, t), 1));
+        (void)simulator.step(kStart + t, say(agents.status(i), 1));
+        if (t == Duration{}) (void)simulator.step(kStart + t, say(agents.held(i), 1));
+      }
+      // A second agent of the first carrier, with a course of its own; it goes when the first one does.
+      if (i == 0 && !silent && t > std::chrono::seconds(2)) {
+        (void)simulator.step(kStart + t, say(rivals.setpoint(i, t), 2));
+        (void)simulator.step(kStart + t, say(rivals.status(i), 2));
+      }
+    }
+    const Outputs out = simulator.step(kStart + t + milliseconds(10), Advance{});
+    if (!out.carriers.empty()) {
+      follows = out.carriers.front().follows;
+      EXPECT_EQ(out.carriers.front().incarnation, 99U);
+      EXPECT_EQ(out.load->incarnation, 99U);
+    }
+    if (t == std::chrono::seconds(5)) {
+      EXPECT_EQ(follows, 1U);
+      EXPECT_EQ(simulator.complaint(kStart + t).value_or("none"),
+                "setpoints of two agents for carrier 1; end one of them");
+    }
+    furthest_m = std::max(furthest_m, (simulator.load().position_w_m - plan.load.position_w_m).norm());
+  }
+  EXPECT_EQ(follows, 0U);
+  EXPECT_LT(furthest_m, 1e-4);
 }
 
 }  // namespace

@@ -150,6 +150,30 @@ TEST(Judges, SeeALossThatIsNotNamed) {
   EXPECT_TRUE(finds(fly(scenario, s), "loss"));
 }
 
+TEST(Judges, SeeTwoAgentsThatBothFlyOneCarrier) {
+  Scenario scenario = steady();
+  Action twin;
+  twin.at = TrueTime(from_seconds(10.0));
+  twin.deed = Deed::kTwin;
+  twin.process = kCoordinators;
+  twin.length = std::chrono::seconds(4);
+  scenario.actions.insert(std::prev(scenario.actions.end()), twin);
+  std::stable_sort(scenario.actions.begin(), scenario.actions.end(),
+                   [](const Action& a, const Action& b) { return a.at < b.at; });
+  EXPECT_TRUE(fly(scenario).good());
+  Sabotage s;
+  s.vehicles_follow_anybody = true;
+  EXPECT_TRUE(fly(scenario, s).good()) << "the second one knows that it is not believed";
+  s.coordinator_says = [](std::size_t, TrueTime, coordinator::Outputs& out) {
+    if (out.time_reply) out.time_reply->believed = 0;
+  };
+  EXPECT_FALSE(fly(scenario, s).good());
+  s.vehicles_follow_anybody = false;
+  const FlightReport kept = fly(scenario, s);
+  EXPECT_TRUE(kept.good()) << "the vehicle follows one of them" << describe(kept);
+  EXPECT_GT(kept.faults.rivals_unheard, 100U);
+}
+
 TEST(Judges, SeeTwoCoordinatorsThatDoNotHearEachOther) {
   Scenario scenario = steady();
   Action second;

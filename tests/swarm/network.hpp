@@ -58,7 +58,8 @@ class Network {
 
  private:
   [[nodiscard]] bool parted(std::size_t from, std::size_t to) const {
-    if (!groups.empty() && groups[from] != groups[to]) return true;
+    const auto group = [this](std::size_t p) { return p < groups.size() ? groups[p] : 0; };
+    if (group(from) != group(to)) return true;
     return std::any_of(cuts.begin(), cuts.end(), [&](const Cut& c) { return c.from == from && c.to == to; });
   }
   [[nodiscard]] Duration delay(std::size_t from, std::size_t to);

@@ -131,7 +131,16 @@ void Writer::fault(double begin_s, double end_s) {
       break;
     }
     default:
-      if (chance(0.5)) add(begin_s, Deed::kStart).process = 1;  // a second coordinator by mistake
+      if (chance(0.5)) {
+        add(begin_s, Deed::kStart).process = 1;  // a second coordinator by mistake
+      } else if (chance(0.7)) {
+        costs(cost::kProcess);
+        Action& twin = add(begin_s, Deed::kTwin);
+        twin.process = any_agent();
+        twin.length = span(0.1, 10.0);
+      } else {
+        add(begin_s, Deed::kSecondWorld).length = span(0.1, 10.0);
+      }
       break;
   }
 }
@@ -219,6 +228,10 @@ const char* name(Deed deed) {
       return "stall";
     case Deed::kClockStop:
       return "clock stops";
+    case Deed::kTwin:
+      return "a second agent";
+    case Deed::kSecondWorld:
+      return "a second world";
     case Deed::kCut:
       return "cut";
     case Deed::kCommand:
@@ -261,6 +274,9 @@ std::string describe(const Action& a) {
     case Deed::kSuspend:
     case Deed::kStall:
       return out + process() + text(" for %.3f s", seconds(a.length));
+    case Deed::kSecondWorld:
+      return out + text(" for %.3f s", seconds(a.length));
+    case Deed::kTwin:
     case Deed::kClockStop:
       return out + process() + text(" for %.3f s", seconds(a.length));
     case Deed::kCommand:

@@ -27,23 +27,24 @@ Swarm::Swarm(const Scenario& scenario, const Sabotage& sabotage, Trace trace)
       load_(loads()[scenario.load]),
       sabotage_(sabotage),
       trace_(std::move(trace)),
-      network_(scenario.seed, kCoordinators + load_.size()),
+      network_(scenario.seed, kCoordinators + load_.size() + 1),
       checkers_(load_, scenario_),
       vehicles_(load_.size()),
       process_of_(kMaxCarrierId + 1, 0),
       chores_(scenario.seed, "chores"),
       judging_(scenario.seed, "judging") {
-  const std::size_t count = kCoordinators + load_.size();
-  for (std::size_t p = 0; p < count; ++p) {
+  for (std::size_t p = 0; p < twin(); ++p) {
     processes_.emplace_back(VirtualClock(RandomStream(scenario.seed, text("clock %zu", p)), scenario_.clock_offsets[p],
                                          scenario_.clock_drifts[p], scenario_.clock_wander_per_sqrt_s));
     if (!is_agent(p)) continue;
     processes_[p].carrier = load_.motions.front().carriers[p - kCoordinators].id;
     process_of_[processes_[p].carrier] = p;
   }
+  processes_.emplace_back(VirtualClock(RandomStream(scenario.seed, "clock of the twin"), std::chrono::hours(7), 0.0,
+                                       scenario_.clock_wander_per_sqrt_s));
   for (std::size_t kind = 0; kind < Channel::kKinds; ++kind) {
     for (std::size_t c = 0; c < kCoordinators; ++c) {
-      for (std::size_t p = kCoordinators; p < count; ++p) {
+      for (std::size_t p = kCoordinators; p <= twin(); ++p) {
         const bool from_agent = kind != Channel::kPlan;
         channels_.push_back({from_agent ? p : c, from_agent ? c : p, kind != Channel::kStatus, nullptr, 0});
       }
@@ -112,10 +113,13 @@ void Swarm::happen(const Happening& h) {
       if (processes_[h.index].running() && processes_[h.index].life == h.number) release(h.index);
       return;
     case Happening::kKill:
-      if (processes_[h.index].running() && !healed_) {
-        ++faults_.killed_in_change;
-        kill(h.index);
+      if (!processes_[h.index].running() || healed_) return;
+      if (h.index == twin()) {
+        if (processes_[h.index].life == h.number) kill(h.index);
+        return;
       }
+      ++faults_.killed_in_change;
+      kill(h.index);
       return;
     case Happening::kSupervise:
       if (!processes_[h.index].running() && coordinators_alive() == 0 && !ending_) start(h.index);
@@ -136,7 +140,7 @@ void Swarm::act(const Action& a) {
       return;
     case Deed::kKill:
       if (!processes_[a.process].running()) return;
-      if (is_agent(a.process) && untroubled()) loss_ = Loss{a.process, now_};
+      if (is_agent(a.process) && untroubled() && !processes_[twin()].running()) loss_ = Loss{a.process, now_};
       kill(a.process);
       return;
     case Deed::kKillInChange:
@@ -158,6 +162,20 @@ void Swarm::act(const Action& a) {
       hold(a.process, a.length, true);
       processes_[a.process].jumped -= a.length;
       return;
+    case Deed::kTwin:
+      if (processes_[twin()].running()) return;
+      ++faults_.twins;
+      processes_[twin()].carrier = processes_[a.process].carrier;
+      for (std::size_t c = 0; c < kCoordinators; ++c) {
+        channels_[channel(Channel::kPlan, c, twin())].latest = channels_[channel(Channel::kPlan, c, a.process)].latest;
+      }
+      start(twin());
+      schedule({now_ + a.length, 0, Happening::kKill, twin(), processes_[twin()].life, nullptr});
+      return;
+    case Deed::kSecondWorld:
+      ++faults_.second_worlds;
+      second_world_until_ = now_ + a.length;
+      return tell_vehicle_states();
     case Deed::kCut:
       network_.cuts = a.cuts;
       return;
@@ -178,7 +196,9 @@ void Swarm::act(const Action& a) {
       network_.groups.clear();
       network_.cuts.clear();
       kill_after_start_.reset();
-      for (std::size_t p = kCoordinators; p < processes_.size(); ++p) {
+      if (processes_[twin()].running()) kill(twin());
+      second_world_until_ = TrueTime{};
+      for (std::size_t p = kCoordinators; p < twin(); ++p) {
         if (!processes_[p].running()) start(p);
       }
       if (coordinators_alive() == 0) start(0);
@@ -216,10 +236,10 @@ void Swarm::start(std::size_t process) {
   if (is_agent(process)) {
     agent::AgentOptions options;
     options.carrier = p.carrier;
-    options.incarnation = chores_.next();
+    options.incarnation = p.incarnation = chores_.next();
     options.vehicle = load_.vehicle;
     p.agent = std::make_unique<agent::Agent>(options);
-    checkers_.begins(process - kCoordinators);
+    if (process != twin()) checkers_.begins(process - kCoordinators);
   } else {
     coordinator::CoordinatorOptions options;
     options.nonce = chores_.next();
@@ -241,8 +261,10 @@ void Swarm::kill(std::size_t process) {
   p.coordinator.reset();
   p.inbox.clear();
   if (is_agent(process)) {
-    ++faults_.agents_killed;
-    checkers_.ends(process - kCoordinators);
+    if (process == twin()) loss_.reset();  // who was killed before it may be replaced by it
+    if (process != twin()) ++faults_.agents_killed;
+    if (vehicles_[vehicle_of(process)].follows(now_) == p.incarnation) checkers_.ends(vehicle_of(process));
+    if (process == twin()) p.carrier = 0;
   } else {
     ++faults_.coordinators_killed;
     loss_.reset();  // nobody is left to name it

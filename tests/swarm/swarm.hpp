@@ -25,6 +25,7 @@ struct FaultCounts {
   std::uint64_t agents_killed = 0, coordinators_killed = 0, killed_in_change = 0, suspended = 0, stalled = 0;
   std::uint64_t partitions = 0, second_coordinators = 0, stood_down = 0, stood_down_alone = 0;
   std::uint64_t commands = 0, retunes = 0, unflyable = 0;
+  std::uint64_t twins = 0, rivals_unheard = 0, second_worlds = 0;
   std::uint64_t late_verdicts = 0;
   std::uint64_t losses_named = 0, leases_ended = 0, stuck = 0, turned_back = 0, clock_stops = 0, found_anew = 0;
 };
@@ -36,6 +37,7 @@ struct Sabotage {
   std::function<void(std::size_t coordinator, TrueTime, coordinator::Outputs&)> coordinator_says;
   std::function<bool(std::size_t coordinator)> coordinator_is_deaf;  ///< to other coordinators' beacons
   std::function<Duration(std::size_t process, TrueTime)> clock_error;
+  bool vehicles_follow_anybody = false;
 };
 
 struct Process;
@@ -78,6 +80,12 @@ class Swarm {
   using MessagePointer = std::shared_ptr<const Message>;
 
   [[nodiscard]] bool is_agent(std::size_t process) const { return process >= kCoordinators; }
+  /// One more agent, of any of the carriers, which lives only by mistake: the last process.
+  [[nodiscard]] std::size_t twin() const { return kCoordinators + load_.size(); }
+  [[nodiscard]] std::size_t vehicle_of(std::size_t process) const;
+  [[nodiscard]] std::size_t channel(std::size_t kind, std::size_t coordinator, std::size_t agent) const {
+    return (kind * kCoordinators + coordinator) * (load_.size() + 1) + agent - kCoordinators;
+  }
   [[nodiscard]] std::size_t process_of(CarrierId carrier) const { return process_of_[carrier]; }
   void schedule(Happening happening);
   void happen(const Happening& happening);
@@ -105,6 +113,7 @@ class Swarm {
   void watch_losses();
   void tell_vehicle_states();
   void show_to_coordinators(std::size_t process);
+  void tell_of_the_second_world();
   void hear_notice(const std::string& notice);
   [[nodiscard]] Duration clock_error(std::size_t process) const;
   [[nodiscard]] LocalTime local(std::size_t process);
@@ -134,6 +143,7 @@ class Swarm {
   std::optional<Duration> kill_after_start_;
   std::uint64_t last_watched_revision_ = 0;
   std::uint64_t commands_sent_ = 0;
+  TrueTime second_world_until_{};
   bool healed_ = false;
   bool ending_ = false;
   RandomStream chores_;

@@ -89,6 +89,7 @@ struct Process {
   std::unique_ptr<agent::Agent> agent;
   std::unique_ptr<coordinator::Coordinator> coordinator;
   std::uint64_t life = 0;
+  std::uint64_t incarnation = 0;  ///< of the agent
   bool joined = false;
   bool sends_setpoints = false;
   bool suspended = false;

@@ -74,6 +74,8 @@ TEST(Faults, HappenEveryOneOfThem) {
   EXPECT_GT(sum.stalled, 20U);
   EXPECT_GT(sum.partitions, 20U);
   EXPECT_GT(sum.second_coordinators, 10U);
+  EXPECT_GT(sum.twins, 10U);
+  EXPECT_GT(sum.second_worlds, 5U);
   EXPECT_GT(sum.stood_down, 10U);
   EXPECT_GT(sum.commands, 100U);
   EXPECT_GT(sum.retunes, 20U);
@@ -263,6 +265,53 @@ TEST_F(Silence, OfTheCoordinatorWithinTheLeaseIsNothing) {
     s_.residual_budget = cost::kCalm;
     EXPECT_LT(fly_until(25.0), cost::kCalm);
     EXPECT_EQ(swarm_->coordinator()->course().pace.target(), 1.0);
+  }
+}
+
+TEST_F(Silence, IsWhatASecondAgentOfACarrierKeepsUntilTheFirstIsGone) {
+  for (std::size_t load = 0; load < loads().size(); ++load) {
+    begin(load);
+    at(10.0, Deed::kTwin).length = std::chrono::seconds(5);
+    s_.residual_budget = cost::kCalm;
+    EXPECT_LT(fly_until(20.0), cost::kCalm) << load;
+    EXPECT_EQ(swarm_->faults().twins, 1U);
+    EXPECT_EQ(swarm_->coordinator()->course().pace.target(), 1.0);
+    // The first one dies beside it, and comes back when it flies.
+    begin(load);
+    at(10.0, Deed::kTwin).length = std::chrono::seconds(15);
+    at(12.0, Deed::kKill);
+    at(18.0, Deed::kStart);
+    s_.residual_budget = cost::kProcess;
+    EXPECT_LT(fly_until(40.0), cost::kProcess) << load;
+    EXPECT_EQ(swarm_->coordinator()->course().pace.target(), 1.0) << "somebody always flies it";
+    EXPECT_TRUE(swarm_->merged());
+  }
+}
+
+TEST_F(Silence, OfTheFirstCoordinatorLetsTheNextOneBelieveTheAgentThatFlies) {
+  for (std::size_t load = 0; load < loads().size(); ++load) {
+    begin(load);
+    at(10.0, Deed::kTwin).length = std::chrono::seconds(20);
+    at(12.0, Deed::kKill, 0);
+    at(14.0, Deed::kStart, 0);
+    s_.residual_budget = cost::kCalm;
+    EXPECT_LT(fly_until(25.0), cost::kCalm) << load;
+    EXPECT_EQ(swarm_->coordinator()->course().pace.target(), 1.0);
+  }
+}
+
+TEST_F(Silence, ASecondSimulatorThatComesAndGoesIsNobodysWorld) {
+  for (std::size_t load = 0; load < loads().size(); ++load) {
+    begin(load);
+    for (const double at_s : {10.0, 14.0}) at(at_s, Deed::kSecondWorld).length = std::chrono::seconds(2);
+    // An agent that starts again meanwhile asks where its carrier is.
+    at(14.5, Deed::kKill);
+    at(15.0, Deed::kStart);
+    s_.residual_budget = cost::kProcess;
+    EXPECT_LT(fly_until(30.0), cost::kProcess) << load;
+    EXPECT_EQ(swarm_->faults().stuck, 0U);
+    EXPECT_EQ(swarm_->coordinator()->course().pace.target(), 1.0);
+    EXPECT_TRUE(swarm_->merged());
   }
 }
 

@@ -49,6 +49,10 @@ void Swarm::watch_losses() {
   loss_.reset();
 }
 
+std::size_t Swarm::vehicle_of(std::size_t process) const {
+  return (process == twin() ? process_of(processes_[process].carrier) : process) - kCoordinators;
+}
+
 protocol::CarrierState Swarm::vehicle_state(std::size_t agent) {
   protocol::CarrierState s = vehicles_[agent].state(now_);
   s.carrier = processes_[agent + kCoordinators].carrier;
@@ -56,13 +60,38 @@ protocol::CarrierState Swarm::vehicle_state(std::size_t agent) {
 }
 
 void Swarm::tell_vehicle_states() {
-  for (std::size_t p = kCoordinators; p < processes_.size(); ++p) {
-    Vehicle& vehicle = vehicles_[p - kCoordinators];
+  const Process& twin_process = processes_[twin()];
+  // Somebody else tells states, too, or listens to them: then all of them are told.
+  const bool all = now_ < second_world_until_ || twin_process.running();
+  const auto tell = [this](std::size_t p, const protocol::CarrierState& state) {
+    if (processes_[p].running() && processes_[p].joined) arrive(p, Message{state});
+  };
+  for (std::size_t p = kCoordinators; p < twin(); ++p) {
+    const std::size_t index = p - kCoordinators;
+    Vehicle& vehicle = vehicles_[index];
     show_to_coordinators(p);
-    const bool alone = !processes_[p].sends_setpoints || now_ - vehicle.commanded_at() >= kLeftAlone;
-    if (!alone) continue;
-    checkers_.alone(p - kCoordinators, now_, vehicle.doing(now_));
-    if (processes_[p].running() && processes_[p].joined) arrive(p, Message{vehicle_state(p - kCoordinators)});
+    const bool led = processes_[p].sends_setpoints || processes_[p].carrier == twin_process.carrier;
+    const bool alone = !led || now_ - vehicle.commanded_at() >= kLeftAlone;
+    if (alone) checkers_.alone(index, now_, vehicle.doing(now_));
+    if (!alone && !all) continue;
+    tell(p, vehicle_state(index));
+    if (processes_[p].carrier == twin_process.carrier) tell(twin(), vehicle_state(index));
+  }
+  if (now_ < second_world_until_) tell_of_the_second_world();
+}
+
+void Swarm::tell_of_the_second_world() {
+  const auto still = mechanics::slices(load_.motions.front());
+  for (std::size_t p = kCoordinators; p < twin(); ++p) {
+    protocol::CarrierState state;
+    state.carrier = processes_[p].carrier;
+    state.incarnation = 2;
+    state.position_w_m = mechanics::evaluate(still[p - kCoordinators], 0.0).position_w_m.value;
+    for (std::size_t to = 0; to < processes_.size(); ++to) {
+      if (!processes_[to].running() || !processes_[to].joined) continue;
+      const bool heard = is_agent(to) ? processes_[to].carrier == state.carrier : network_.send(now_, p, to).copies > 0;
+      if (heard) arrive(to, Message{state});
+    }
   }
 }
 
@@ -113,7 +142,7 @@ bool Swarm::agrees(Duration clock_bound, std::string* why) const {
     if (p.running() && now_ < p.held_until) return no("somebody still hangs");
   }
   const coordinator::Coordinator& leader = *coordinator();
-  for (std::size_t p = kCoordinators; p < processes_.size(); ++p) {
+  for (std::size_t p = kCoordinators; p < twin(); ++p) {
     const protocol::Course& course = processes_[p].agent->course();
     if (course.term != leader.course().term || course.revision != leader.course().revision) {
       return no(text("agent %u flies course %llu.%llu, not %llu.%llu", processes_[p].carrier,
@@ -127,7 +156,8 @@ bool Swarm::agrees(Duration clock_bound, std::string* why) const {
 
 bool Swarm::at_rest() const {
   const auto still = [](const Process& p) { return p.agent && p.agent->course().pace.target() == 0.0; };
-  return std::all_of(processes_.begin() + kCoordinators, processes_.end(), still);
+  return std::all_of(processes_.begin() + kCoordinators, processes_.begin() + static_cast<std::ptrdiff_t>(twin()),
+                     still);
 }
 
 FaultCounts Swarm::faults() const {

@@ -114,7 +114,7 @@ void Swarm::shut_down() {
 
 void Swarm::step_agent(std::size_t process, agent::Event event) {
   Process& p = processes_[process];
-  const std::size_t index = process - kCoordinators;
+  const std::size_t index = vehicle_of(process);
   if (sabotage_.agent_hears) sabotage_.agent_hears(index, now_, event);
   agent::Outputs out = p.agent->step(local(process), event);
   if (sabotage_.agent_says) sabotage_.agent_says(index, now_, out);
@@ -126,27 +126,33 @@ void Swarm::step_agent(std::size_t process, agent::Event event) {
 }
 
 void Swarm::perform(std::size_t process, const agent::Outputs& out) {
-  const std::size_t index = process - kCoordinators;
-  const std::size_t n = load_.size();
+  const std::size_t index = vehicle_of(process);
+  Vehicle& vehicle = vehicles_[index];
   if (out.time_request) {
     const auto message = std::make_shared<const Message>(Message{*out.time_request});
     for (std::size_t c = 0; c < kCoordinators; ++c) send(process, c, message);
   }
+  using Heard = protocol::Incumbent::Verdict;
   if (out.setpoint) {
-    checkers_.setpoint(index, now_, *out.setpoint, vehicle_state(index));
-    vehicles_[index].command(now_, *out.setpoint);
-    processes_[process].sends_setpoints = true;
+    const Heard heard = vehicle.hears(now_, *out.setpoint);
+    if (heard == Heard::kRival) ++faults_.rivals_unheard;
+    if (heard != Heard::kRival || sabotage_.vehicles_follow_anybody) {
+      if (heard == Heard::kSucceeds) checkers_.begins(index);
+      checkers_.setpoint(index, now_, *out.setpoint, vehicle_state(index));
+      vehicle.command(now_, *out.setpoint);
+      processes_[process].sends_setpoints = true;
+    }
   }
   if (out.status) {
-    checkers_.status(index, now_, *out.status);
-    vehicles_[index].onward().take(*out.status);
+    if (process != twin()) checkers_.status(index, now_, *out.status);
+    vehicle.learn(now_, *out.status);
     const auto message = std::make_shared<const Message>(Message{*out.status});
-    for (std::size_t c = 0; c < kCoordinators; ++c) write((Channel::kStatus * kCoordinators + c) * n + index, message);
+    for (std::size_t c = 0; c < kCoordinators; ++c) write(channel(Channel::kStatus, c, process), message);
   }
   if (out.held) {
-    vehicles_[index].onward().take(*out.held);
+    vehicle.learn(*out.held);
     const auto message = std::make_shared<const Message>(Message{*out.held});
-    for (std::size_t c = 0; c < kCoordinators; ++c) write((Channel::kHeld * kCoordinators + c) * n + index, message);
+    for (std::size_t c = 0; c < kCoordinators; ++c) write(channel(Channel::kHeld, c, process), message);
   }
   if (out.question) {
     const Duration takes = from_seconds(seconds(scenario_.judging) * judging_.uniform());
@@ -187,7 +193,11 @@ void Swarm::step_coordinator(std::size_t process, const coordinator::Event& even
 }
 
 void Swarm::perform(std::size_t process, const coordinator::Outputs& out) {
-  const std::size_t n = load_.size();
+  const auto agents_of = [this](CarrierId carrier) {
+    std::vector<std::size_t> those{process_of(carrier)};
+    if (processes_[twin()].carrier == carrier) those.push_back(twin());
+    return those;
+  };
   if (out.time_reply) {
     protocol::TimeReply reply = *out.time_reply;
     if (network_.chance(network_.weather.lies)) {
@@ -195,11 +205,13 @@ void Swarm::perform(std::size_t process, const coordinator::Outputs& out) {
       checkers_.lies_told();
       lie(network_.random(), reply);
     }
-    send(process, process_of(reply.carrier), std::make_shared<const Message>(Message{reply}));
+    for (const std::size_t p : agents_of(reply.carrier))
+      send(process, p, std::make_shared<const Message>(Message{reply}));
   }
   for (const protocol::PlanOffer& offer : out.offers) {
-    const std::size_t index = process_of(offer.carrier) - kCoordinators;
-    write((Channel::kPlan * kCoordinators + process) * n + index, std::make_shared<const Message>(Message{offer}));
+    for (const std::size_t p : agents_of(offer.carrier)) {
+      write(channel(Channel::kPlan, process, p), std::make_shared<const Message>(Message{offer}));
+    }
   }
   if (out.beacon) {
     const auto message = std::make_shared<const Message>(Message{*out.beacon});

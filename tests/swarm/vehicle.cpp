@@ -75,6 +75,8 @@ protocol::Setpoint Vehicle::went_on(TrueTime now) const {
 protocol::CarrierState Vehicle::state(TrueTime now) {
   const protocol::Setpoint s = doing(now);
   protocol::CarrierState state;
+  state.incarnation = 1;  // of the world they all live in
+  state.follows = follows(now);
   state.position_w_m = s.position_w_m;
   state.velocity_w_m_s = s.velocity_w_m_s;
   state.winch_length_m = s.winch_length_m;

@@ -2,6 +2,7 @@
 // Where a carrier is, and what it does when nobody tells it anything: as the simulator's vehicles do
 // (simulator/core/onward.hpp, on_silence.hpp, extrapolation.hpp), without their dynamics.
 
+#include "common/protocol/incumbent.hpp"
 #include "common/protocol/messages.hpp"
 #include "simulator/core/catch_up.hpp"
 #include "simulator/core/on_silence.hpp"
@@ -16,8 +17,17 @@ class Vehicle {
   void place(const protocol::Setpoint& at_rest) { last_ = at_rest; }
   /// From now on it is of the kind that brakes when nobody tells it anything (simulator/core/on_silence.hpp).
   void holds() { on_silence_ = simulator::OnSilence::kHolds; }
+  /// Of which agent this setpoint is, judged as the simulator's vehicles do; kRival: it is not flown.
+  protocol::Incumbent::Verdict hears(TrueTime now, const protocol::Setpoint& setpoint) {
+    return agent_.hear(steady(now), setpoint.incarnation);
+  }
   void command(TrueTime now, const protocol::Setpoint& setpoint);
-  simulator::Onward& onward() { return onward_; }
+  void learn(TrueTime now, const protocol::AgentStatus& status) {
+    if (follows(now) == 0 || follows(now) == status.incarnation) onward_.take(status);
+  }
+  void learn(const protocol::HeldPlans& held) { onward_.take(held); }
+  /// The agent whose setpoints it flies; 0: none.
+  [[nodiscard]] std::uint64_t follows(TrueTime now) const { return agent_.silent(steady(now)) ? 0 : *agent_.who(); }
 
   [[nodiscard]] TrueTime commanded_at() const { return since_; }
   /// What it does now, in the form of a command; it counts swarm time by itself since the last one.
@@ -29,6 +39,10 @@ class Vehicle {
   [[nodiscard]] protocol::Setpoint braked(TrueTime now) const;
   [[nodiscard]] protocol::Setpoint went_on(TrueTime now) const;
 
+  /// Its clock is a true one.
+  [[nodiscard]] static LocalTime steady(TrueTime now) { return LocalTime(now.time_since_epoch()); }
+
+  protocol::Incumbent agent_{protocol::kSucceeded, Duration::zero()};
   TrueTime since_{};
   simulator::OnSilence on_silence_ = simulator::OnSilence::kGoesOn;
   bool led_ = false;

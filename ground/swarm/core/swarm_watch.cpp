@@ -56,8 +56,8 @@ void SwarmWatch::see(const protocol::Health& health, LocalTime /*arrived*/) {
 }
 
 void SwarmWatch::see(const protocol::LoadState& load, LocalTime arrived) {
-  if (!sane(load)) return;  // whatever is not a number is not far away either
-  load_heard_.heard(arrived);
+  if (!sane(load)) return;                                       // whatever is not a number is not far away either
+  if (!load_heard_.believes(arrived, load.incarnation)) return;  // another simulator's world
   displacement_now_m_ = (load.position_w_m - load_.position_w_m).norm();
   rotation_now_deg_ = degrees(load.orientation_w_b.angularDistance(load_.orientation_w_b));
   window_.displacement_max_m = std::max(window_.displacement_max_m, displacement_now_m_);

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "common/mission/mission.hpp"
+#include "common/protocol/incumbent.hpp"
 #include "common/protocol/liveness.hpp"
 #include "common/protocol/messages.hpp"
 
@@ -80,7 +81,7 @@ class SwarmWatch {
   std::map<std::string, Duration> late_max_;
   protocol::Liveness beacon_heard_;
   protocol::Liveness coordinator_heard_;
-  protocol::Liveness load_heard_;
+  protocol::Incumbent load_heard_;
   double displacement_now_m_ = 0.0;
   double rotation_now_deg_ = 0.0;
   LoadWindow window_;

@@ -44,7 +44,7 @@ class Wire {
     node.read<protocol::CarrierState>([this](const protocol::CarrierState& s, LocalTime) { inbox_.push(s); }, carrier);
   }
 
-  [[nodiscard]] std::deque<Event> sleep_until(LocalTime deadline) { return inbox_.sleep_until(deadline); }
+  [[nodiscard]] const std::deque<Event>& sleep_until(LocalTime deadline) { return inbox_.sleep_until(deadline); }
 
   [[nodiscard]] std::uint64_t undecodable() const { return node_->counters().undecodable; }
 

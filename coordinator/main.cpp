@@ -87,7 +87,7 @@ class Wire {
     }
   }
 
-  [[nodiscard]] std::deque<Event> sleep_until(LocalTime deadline) { return inbox_.sleep_until(deadline); }
+  [[nodiscard]] const std::deque<Event>& sleep_until(LocalTime deadline) { return inbox_.sleep_until(deadline); }
 
   void send(const Outputs& out) {
     if (out.time_reply) time_replies_.at(out.time_reply->carrier).write(*out.time_reply);

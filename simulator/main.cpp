@@ -54,7 +54,7 @@ class Wire {
     }
   }
 
-  [[nodiscard]] std::deque<Arrived> sleep_until(LocalTime deadline) { return inbox_.sleep_until(deadline); }
+  [[nodiscard]] const std::deque<Arrived>& sleep_until(LocalTime deadline) { return inbox_.sleep_until(deadline); }
 
   void send(const Outputs& out) {
     for (std::size_t i = 0; i < out.carriers.size(); ++i) carriers_[i].write(out.carriers[i]);

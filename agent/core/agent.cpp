@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/base/angle.hpp"
 #include "common/base/text.hpp"
@@ -63,11 +64,13 @@ std::optional<SwarmTime> Agent::swarm_time(LocalTime now) const {
 void Agent::on(LocalTime now, const Tick& /*tick*/, Outputs& out) {
   if (now < next_tick_) return;
   // A stall is not made up for: the next tick is one period from now, not a burst of the missed ones.
-  next_tick_ += options_.control_period;
-  if (next_tick_ <= now) next_tick_ = now + options_.control_period;
+  const bool hurries = !clock_.synchronised() && !coordinator_.silent(now);
+  const Duration period = hurries ? options_.hurry : options_.control_period;
+  next_tick_ += period;
+  if (next_tick_ <= now) next_tick_ = now + period;
 
-  if (now >= next_request_) {
-    next_request_ = now + (clock_.synchronised() ? options_.request_period : options_.request_period_at_start);
+  if (!requested_at_ || now - *requested_at_ >= request_period(now)) {
+    requested_at_ = now;
     out.time_request = protocol::TimeRequest{options_.carrier, options_.incarnation, ++requests_, now};
   }
   const std::optional<SwarmTime> time = swarm_time(now);
@@ -219,14 +222,14 @@ void Agent::adopt(LocalTime now, Outputs& out) {
   if (const auto& proposal = heard_->proposal; proposal && confirms(*proposal)) confirmed_ = proposal->revision;
   const bool confirmed = confirmed_ != confirmed_before;
 
-  protocol::Course wanted = heard_->course;
-  const bool newer = wanted.newer_than(course_) || course_.none();
+  const bool newer = heard_->course.newer_than(course_) || course_.none();
   bool flown = false;
-  if (newer || (wanted.lease != course_.lease && !course_.newer_than(wanted))) {
+  if (newer || (heard_->course.lease != course_.lease && !course_.newer_than(heard_->course))) {
+    protocol::Course wanted = heard_->course;
     protocol::settle(wanted, *time);
     // Without one of its plans there is no reference: a course is flown whole or not at all.
     flown = reference(wanted, *time) && merge_to(now, wanted);
-    if (flown) course_ = wanted;
+    if (flown) course_ = std::move(wanted);
   }
   if ((flown && newer) || confirmed) awaited_until_ = now + options_.awaited;
   // The coordinator extends the lease only when all have said that they hold it.

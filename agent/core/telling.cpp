@@ -1,4 +1,5 @@
-// What an agent tells of itself: its state, what keeps it from its work, its status.
+// What an agent tells of itself: its state, what keeps it from its work, its status; and how often it asks for the
+// time.
 
 #include <algorithm>
 
@@ -66,6 +67,13 @@ protocol::AgentStatus Agent::status(LocalTime now) {
   s.dropped.nonsense += undecodable_;
   s.address = options_.address;
   return s;
+}
+
+Duration Agent::request_period(LocalTime now) const {
+  if (coordinator_.silent(now)) return options_.request_period;  // nobody answers: no reason to hurry
+  const bool answered = requests_answered_ == requests_;
+  if (!clock_.synchronised()) return answered ? Duration::zero() : options_.request_period_unanswered_at_start;
+  return answered ? options_.request_period : options_.request_period_unanswered;
 }
 
 }  // namespace gyre::agent

@@ -64,6 +64,9 @@ SeatLock::~SeatLock() {
 SeatLock::SeatLock(SeatLock&& other) noexcept : socket_(std::exchange(other.socket_, -1)) {}
 
 void SeatLock::answer(const SeatAnswer& answer) const {
+  // Hardly ever does anybody ask, and to accept nobody is not cheap: the kernel makes the socket first.
+  pollfd waiting{socket_, POLLIN, 0};
+  if (::poll(&waiting, 1, 0) <= 0) return;
   const std::string words = answer.process + "\n" + answer.complaint;
   constexpr int kMostAtOnce = 16;  // the rest next time: a crowd must not hold up a flight
   for (int i = 0; i < kMostAtOnce; ++i) {

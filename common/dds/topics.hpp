@@ -15,7 +15,6 @@ namespace gyre::dds {
 
 enum class Delivery {
   kNewest,    ///< best effort, keep last 1: the next one makes up for a lost one
-  kState,     ///< reliable, keep last 1: the newest arrives, older ones may be skipped
   kRetained,  ///< reliable, keep last 1, transient local: a late joiner gets the newest too
   kEach,      ///< reliable, volatile: every one, for whoever listens when it is sent
   kFromMany,  ///< best effort, keep last 1 at each of many writers on one topic; readers have room for all of them
@@ -38,13 +37,13 @@ template <> inline constexpr Topic kTopic<protocol::PlanOffer>    {"plan",      
 template <> inline constexpr Topic kTopic<protocol::HeldPlans>    {"held",          "gyre_msgs::msg::dds_::HeldPlans_",       true,  Delivery::kRetained};
 template <> inline constexpr Topic kTopic<protocol::TimeRequest>  {"time_request",  "gyre_msgs::msg::dds_::TimeRequest_",     true,  Delivery::kNewest};
 template <> inline constexpr Topic kTopic<protocol::TimeReply>    {"time_reply",    "gyre_msgs::msg::dds_::TimeReply_",       true,  Delivery::kNewest};
-template <> inline constexpr Topic kTopic<protocol::AgentStatus>  {"status",        "gyre_msgs::msg::dds_::AgentStatus_",     true,  Delivery::kState};
+template <> inline constexpr Topic kTopic<protocol::AgentStatus>  {"status",        "gyre_msgs::msg::dds_::AgentStatus_",     true,  Delivery::kRetained};
 template <> inline constexpr Topic kTopic<protocol::Setpoint>     {"setpoint",      "gyre_msgs::msg::dds_::CarrierSetpoint_", true,  Delivery::kNewest};
 template <> inline constexpr Topic kTopic<protocol::CarrierState> {"state",         "gyre_msgs::msg::dds_::CarrierState_",    true,  Delivery::kNewest};
 template <> inline constexpr Topic kTopic<protocol::LoadState>    {"load/state",    "gyre_msgs::msg::dds_::LoadState_",       false, Delivery::kNewest};
 template <> inline constexpr Topic kTopic<protocol::Command>      {"command",       "gyre_msgs::msg::dds_::Command_",         false, Delivery::kEach};
 template <> inline constexpr Topic kTopic<protocol::CommandReply> {"command_reply", "gyre_msgs::msg::dds_::CommandReply_",    false, Delivery::kEach};
-template <> inline constexpr Topic kTopic<protocol::CoordinatorStatus> {"coordinator/status", "gyre_msgs::msg::dds_::CoordinatorStatus_", false, Delivery::kState};
+template <> inline constexpr Topic kTopic<protocol::CoordinatorStatus> {"coordinator/status", "gyre_msgs::msg::dds_::CoordinatorStatus_", false, Delivery::kRetained};
 template <> inline constexpr Topic kTopic<protocol::Health>       {"health",        "gyre_msgs::msg::dds_::Health_",          false, Delivery::kFromMany};
 // clang-format on
 

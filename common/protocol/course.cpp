@@ -2,9 +2,22 @@
 
 namespace gyre::protocol {
 
+namespace {
+
+/// In motion at the end of its lease, which has passed.
+bool stops_alone(const Course& course, SwarmTime now) {
+  return course.lease && now > *course.lease && !course.pace.rests(*course.lease);
+}
+
+}  // namespace
+
 Pace Course::flown_pace(SwarmTime now) const {
-  const bool stops = lease && now > *lease && !pace.rests(*lease);
-  return stops ? pace.with_ramp(*lease, stopping, 0.0) : pace;
+  return stops_alone(*this, now) ? pace.with_ramp(*lease, stopping, 0.0) : pace;
+}
+
+// Asked for at every tick: nothing is copied where nothing stops.
+PlanMoment Course::moment(SwarmTime now) const {
+  return stops_alone(*this, now) ? flown_pace(now).at(now) : pace.at(now);
 }
 
 bool same_motion(const Course& a, const Course& b) {

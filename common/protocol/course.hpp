@@ -97,7 +97,7 @@ struct Course {
   }
   /// The pace axis as it is flown: with the stop at the end of the lease, once that has passed.
   [[nodiscard]] Pace flown_pace(SwarmTime now) const;
-  [[nodiscard]] PlanMoment moment(SwarmTime now) const { return flown_pace(now).at(now); }
+  [[nodiscard]] PlanMoment moment(SwarmTime now) const;
   /// Whether nothing moves at `now`, and nothing is going to.
   [[nodiscard]] bool rests(SwarmTime now) const { return flown_pace(now).rests(now); }
 };

@@ -28,22 +28,34 @@ Coordinator::Coordinator(const Job& job, const CoordinatorOptions& options)
 Outputs Coordinator::step(LocalTime now, const Event& event) {
   Outputs out;
   std::visit([&](const auto& e) { on(now, e, out); }, event);
-  out.next_tick = next_tick_;
+  out.next_tick = hurries_ ? std::min(next_tick_, now + options_.hurry) : next_tick_;
   return out;
 }
 
 void Coordinator::on(LocalTime now, const Tick& /*tick*/, Outputs& out) {
   if (now < next_tick_) return;
   // A stall is not made up for: the next beacon is one period from now, not a burst of the missed ones.
-  next_tick_ += options_.beacon_period;
-  if (next_tick_ <= now) next_tick_ = now + options_.beacon_period;
+  const Duration period = listening_ ? options_.hurry : options_.beacon_period;
+  next_tick_ += period;
+  if (next_tick_ <= now) next_tick_ = now + period;
   for (const Fleet::Change& change : swarm_.fleet.changes(now)) {
     const char* what = change.lost ? "is silent" : change.restarted ? "was restarted" : "is here";
     news_.tell(out, change.lost ? Notice::Level::kWarning : Notice::Level::kInfo,
                text("agent %u %s", change.carrier, what));
   }
-  if (leading_) return leading_->tick(now, out);
-  listen(now, out);
+  if (leading_) {
+    leading_->tick(now, out);
+  } else {
+    listen(now, out);
+  }
+  hurries_ = leading_ && somebody_waits(now);
+}
+
+bool Coordinator::somebody_waits(LocalTime now) const {
+  return std::any_of(swarm_.carriers.begin(), swarm_.carriers.end(), [&](CarrierId id) {
+    const protocol::AgentStatus* status = swarm_.fleet.status(id);
+    return status != nullptr && !swarm_.fleet.silent(now, id) && status->state == protocol::AgentState::kWaiting;
+  });
 }
 
 void Coordinator::on(LocalTime now, const protocol::AgentStatus& status, Outputs& out) {
@@ -175,7 +187,10 @@ void Coordinator::listen(LocalTime now, Outputs& out) {
     if (swarm_.fleet.status(id) == nullptr) unheard.push_back(id);
   }
   if (heard.recovery.course()) {
-    if (!heard.recovering_since) heard.recovering_since = now;
+    // What waited while this process hung is old, too: it listens anew.
+    const bool hung = now - heard.looked > options_.listening_least;
+    if (!heard.recovering_since || hung) heard.recovering_since = now;
+    heard.looked = now;
     // The first word of an agent may have been long on its way, and swarm time is as late as the freshest of them. Once
     // everybody was heard, with every plan of the course, there is nothing left to learn.
     const auto known = [&heard](const protocol::AgentStatus& s) { return heard.recovery.complete_for(s.carrier); };
@@ -198,6 +213,7 @@ void Coordinator::listen(LocalTime now, Outputs& out) {
   if (beginning.course) beginning.swarm_offset = heard.recovery.swarm_offset();
   leading_.emplace(now, job_, options_, swarm_, news_, beginning, out);
   listening_.reset();
+  leading_->tick(now, out);  // the first beacon at once: everybody waits for it
 }
 
 std::optional<std::string> Coordinator::complaint(LocalTime now) const {

@@ -61,6 +61,8 @@ class Coordinator {
   void on(LocalTime now, const Shutdown& shutdown, Outputs& out);
 
   void listen(LocalTime now, Outputs& out);
+  /// For swarm time, or for its plan.
+  [[nodiscard]] bool somebody_waits(LocalTime now) const;
   void stand_down(const std::string& why, Outputs& out);
   /// Of somebody who has heard of a later term, or leads in one; false: that is nonsense as yet, and counted.
   [[nodiscard]] bool believes(std::uint64_t term);
@@ -72,6 +74,7 @@ class Coordinator {
     Recovery recovery;
     std::optional<LocalTime> since;
     std::optional<LocalTime> recovering_since;  ///< the first word of a swarm that flies
+    LocalTime looked{};                         ///< when it last did, since then
   };
 
   Job job_;
@@ -82,6 +85,7 @@ class Coordinator {
   std::optional<Listening> listening_ = Listening{};  // either this
   std::optional<Leading> leading_;                    // or that
   LocalTime next_tick_ = LocalTime::min();            // a clock may well begin below zero
+  bool hurries_ = false;
   protocol::DropCounts dropped_;
 };
 

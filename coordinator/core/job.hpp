@@ -30,6 +30,9 @@ struct CoordinatorOptions {
   bool engage_when_ready = false;  ///< start the motion as soon as every agent has accepted, if nobody ever wished
                                    ///< anything else of this swarm
   Duration beacon_period = std::chrono::milliseconds(20);
+  /// Between two looks at what arrived, while it listens and while an agent waits for swarm time or its plan: a
+  /// beginning is a few words to and fro, and all wait for it.
+  Duration hurry = std::chrono::milliseconds(5);
   Duration status_period = std::chrono::milliseconds(500);
   Duration agent_timeout = std::chrono::milliseconds(450);    ///< an agent is named silent
   Duration listening = std::chrono::milliseconds(1500);       ///< to a swarm that already flies, since its first word

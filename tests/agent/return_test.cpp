@@ -125,6 +125,7 @@ TEST_F(AgentTest, RestartedInFlightItAllowsForTheAgeOfItsVehiclesWord) {
   const LocalTime then = now_;
   tell(said);
   vehicle_.reset();
+  fly(milliseconds(100), false);
   while (!setpoint_ && now_ < then + milliseconds(400)) fly(milliseconds(10));
   ASSERT_TRUE(setpoint_);
   const double age_s = gyre::seconds(now_ - milliseconds(10) - then);

@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "common/base/text.hpp"
 #include "common/dds/clock.hpp"
 #include "ground/flight/flight_directory.hpp"
 #include "tests/processes/fault_flight.hpp"
@@ -122,6 +123,20 @@ void row(const char* what, int lost_percent, std::vector<double> values) {
               values.size());
 }
 
+/// Why there is nothing to compare: that is no figure, and least of all a good one.
+std::string what_was_heard(const FlightRecord& record, LocalTime from) {
+  const auto count = [from](const auto& heards) {
+    return std::count_if(heards.begin(), heards.end(), [from](const auto& heard) { return heard.arrived >= from; });
+  };
+  std::string words = "no two agents can be compared; heard were\n";
+  for (const auto& [id, carrier] : record.carriers) {
+    words +=
+        gyre::text("  agent %u: %td requests, %td setpoints, %zu pairs of them\n", id, count(carrier.time_requests),
+                   count(carrier.setpoints), readings(carrier, kClocks.at(gyre::test::agent_name(id)), from).size());
+  }
+  return words;
+}
+
 int fail(const std::string& what) {
   std::fprintf(stderr, "%s\n", what.c_str());
   return 1;
@@ -152,7 +167,9 @@ int main() {
     const LocalTime from = gyre::dds::now();
     std::this_thread::sleep_for(std::chrono::seconds(kMeasure_s));
     const FlightRecord record = flight.value()->observer().ask([](const FlightRecord& all) { return all; });
-    row("two-way exchanges, filtered (Gyre)", lost_percent, pairwise_us(record, from));
+    const std::vector<double> apart = pairwise_us(record, from);
+    if (apart.empty()) return fail(what_was_heard(record, from) + flight.value()->said_by_all());
+    row("two-way exchanges, filtered (Gyre)", lost_percent, apart);
     row("a beacon's stamp at its arrival", lost_percent, by_beacon_us(record, from));
   }
   return 0;

@@ -31,6 +31,34 @@ TEST(Coordinator, OpensAtOnceWhenAllAgentsAreFresh) {
   EXPECT_EQ(swarm.moment().at, PlanTime{});
 }
 
+TEST(Coordinator, SaysItsFirstBeaconWithThePlans) {
+  SwarmOfAgents swarm(job());
+  std::optional<LocalTime> offered, heard;
+  swarm.visit = [&] {
+    if (!offered && !swarm.statuses.empty() && !swarm.statuses.at(1).accepted.empty()) offered = swarm.now;
+    if (!heard && swarm.beacon) heard = swarm.now;
+  };
+  swarm.fly(milliseconds(300));
+  ASSERT_TRUE(offered && heard);
+  EXPECT_EQ(*heard, *offered) << "everybody waits for it";
+}
+
+TEST(Coordinator, LooksOftenerWhileSomebodyWaitsForHisStartAndSpeaksAsEver) {
+  SwarmOfAgents swarm(job());
+  const auto until_it_looks = [&] { return swarm.coordinator().step(swarm.now, Tick{}).next_tick - swarm.now; };
+  EXPECT_LE(until_it_looks(), milliseconds(5)) << "listening";
+  swarm.deaf = {3};
+  swarm.fly(seconds(1));
+  const std::uint64_t before = swarm.beacon->sequence;
+  for (int i = 0; i < 200; ++i, swarm.now += milliseconds(5)) swarm.tell(Tick{});
+  EXPECT_NEAR(static_cast<double>(swarm.beacon->sequence - before), 50, 1);
+  swarm.fly(milliseconds(200));
+  EXPECT_LE(until_it_looks(), milliseconds(5)) << "carrier 3 has no swarm time";
+  swarm.deaf.clear();
+  swarm.fly(seconds(1));
+  EXPECT_GT(until_it_looks(), milliseconds(5));
+}
+
 TEST(Coordinator, BeginsAFlightOnlyWithAll) {
   SwarmOfAgents swarm(job());
   swarm.mute = {3};

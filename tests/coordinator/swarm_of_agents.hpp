@@ -31,6 +31,9 @@ class SwarmOfAgents {
     silence = job.silence;
     finished.reset();
     for (const auto& [id, held] : held_) tell(held);  // transient local
+    for (const auto& [id, agent] : agents_) {
+      if (statuses.count(id) > 0 && mute.count(id) == 0) tell(statuses.at(id));
+    }
   }
   void stop_coordinator() { coordinator_.reset(), offers_.clear(); }
 
@@ -145,12 +148,10 @@ class SwarmOfAgents {
   std::set<CarrierId> nobody_knows;  ///< whose part of the plan in force is lost
 
  private:
-  [[nodiscard]] std::vector<CarrierId> carriers() const {
-    std::vector<CarrierId> out;
-    for (const auto& [id, agent] : agents_) out.push_back(id);
-    for (const auto& [id, agent] : twins_) {
-      if (agents_.count(id) == 0) out.push_back(id);
-    }
+  [[nodiscard]] std::set<CarrierId> carriers() const {
+    std::set<CarrierId> out;
+    for (const auto& [id, agent] : agents_) out.insert(id);
+    for (const auto& [id, agent] : twins_) out.insert(id);
     return out;
   }
 

@@ -65,6 +65,25 @@ TEST(Takeover, GoesOnAndTheFlightDoesNotNotice) {
   }
 }
 
+// The first words are those that were said before it came, and what waits while it hangs is older still.
+TEST(Takeover, WhoHungWhileItListenedListensAnew) {
+  for (const Duration hung : {Duration(milliseconds(400)), Duration(seconds(2))}) {
+    Flying swarm;
+    const Duration offset = swarm.beacon->swarm_time.time_since_epoch() - swarm.now.time_since_epoch();
+    swarm.stop_coordinator();
+    swarm.fly(milliseconds(90));
+    swarm.start_coordinator();
+    swarm.tell(Tick{});
+    swarm.now += hung;
+    swarm.tell(Tick{});
+    EXPECT_EQ(swarm.coordinator().term(), 0) << "by what was said before";
+    swarm.fly(milliseconds(600));
+    ASSERT_NE(swarm.coordinator().term(), 0);
+    const Duration now = swarm.beacon->swarm_time.time_since_epoch() - swarm.now.time_since_epoch();
+    EXPECT_LT(std::abs(gyre::seconds(now - offset)), 0.011 + 1e-3);
+  }
+}
+
 TEST(Takeover, LetsTheMissionThatIsFlownBeTheMission) {
   Flying swarm;
   const Job mission = faster();

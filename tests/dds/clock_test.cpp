@@ -110,5 +110,21 @@ TEST_F(ProcessClock, ASleepTellsHowLateItEnded) {
   EXPECT_EQ(inbox.late(), Duration::zero()) << "who comes after his deadline has only himself to blame";
 }
 
+TEST(Inbox, GivesEveryEventOnceAndWhenItIsFullTheNewest) {
+  dds::Inbox<int> inbox(3);
+  const auto taken = [&](bool sleeps) {
+    const auto& events = sleeps ? inbox.sleep_until(dds::now()) : inbox.wait_until(dds::now());
+    return std::vector<int>(events.begin(), events.end());
+  };
+  for (const bool sleeps : {false, true}) {
+    for (int i = 1; i <= 4; ++i) inbox.push(i);
+    EXPECT_EQ(taken(sleeps), (std::vector<int>{2, 3, 4}));
+    inbox.push(5);
+    EXPECT_EQ(taken(sleeps), std::vector<int>{5});
+    EXPECT_TRUE(taken(sleeps).empty());
+  }
+  EXPECT_EQ(inbox.dropped(), 2U);
+}
+
 }  // namespace
 }  // namespace gyre

@@ -110,6 +110,25 @@ TEST(Plan, ReachesWhoComesLate) {
   EXPECT_EQ(first->term, 2U) << "the newest, and only that";
 }
 
+// A flight begins when all were heard: with the word that was said before somebody came, not with the next one.
+TEST(AgentStatus, IsHeardByWhoComesLate) {
+  dds::NodeOptions options;
+  dds::Inbox<AgentStatus> inbox;
+  tests::open_coordinator(options).reset();
+  const auto agent = tests::open(options, {std::nullopt, kCarrier});
+  ASSERT_TRUE(agent);
+  AgentStatus said;
+  said.sequence = 7;
+  agent->writer<AgentStatus>(kCarrier).write(said);
+  const auto coordinator = tests::open(options, {dds::Hub::kCoordinator, std::nullopt});
+  ASSERT_TRUE(coordinator);
+  coordinator->read<AgentStatus>([&](AgentStatus status, LocalTime) { inbox.push(std::move(status)); }, kCarrier);
+  const auto heard = wait_for(
+      inbox, [](const AgentStatus&) { return true; }, [] {});
+  ASSERT_TRUE(heard);
+  EXPECT_EQ(heard->sequence, 7U);
+}
+
 TEST(HeldPlans, ReachARestartedCoordinator) {
   dds::NodeOptions options;
   dds::Inbox<protocol::HeldPlans> inbox;

@@ -46,7 +46,7 @@ Swarm::Swarm(const Scenario& scenario, const Sabotage& sabotage, Trace trace)
     for (std::size_t c = 0; c < kCoordinators; ++c) {
       for (std::size_t p = kCoordinators; p <= twin(); ++p) {
         const bool from_agent = kind != Channel::kPlan;
-        channels_.push_back({from_agent ? p : c, from_agent ? c : p, kind != Channel::kStatus, nullptr, 0});
+        channels_.push_back({from_agent ? p : c, from_agent ? c : p, nullptr, 0});
       }
     }
   }
@@ -281,7 +281,7 @@ void Swarm::joined(std::size_t process) {
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     Channel& channel = channels_[i];
     const bool concerned = channel.to == process || channel.from == process;
-    if (!concerned || !channel.retained || !channel.latest) continue;
+    if (!concerned || !channel.latest) continue;
     ++channel.version;
     attempt(i, false);
   }

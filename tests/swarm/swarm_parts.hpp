@@ -67,11 +67,10 @@ struct Happening {
   std::shared_ptr<const Message> message;
 };
 
-/// A reliable topic from one process to another that keeps the newest sample.
+/// A reliable topic from one process to another that keeps the newest sample, for late joiners, too.
 struct Channel {
   enum Kind : std::size_t { kPlan, kHeld, kStatus, kKinds };
   std::size_t from = 0, to = 0;
-  bool retained = false;  ///< a late joiner gets the newest sample too
   std::shared_ptr<const Message> latest;
   std::uint64_t version = 0;
 };

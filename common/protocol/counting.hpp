@@ -12,16 +12,19 @@
 
 namespace gyre::protocol {
 
-/// Nobody has counted further: ten thousand a second for nine hundred years. It can still be counted on from.
+/// Nobody has counted further: ten thousand a second for nine hundred years.
 inline constexpr std::uint64_t kMostCounted = std::uint64_t{1} << 48;
 [[nodiscard]] constexpr bool counted(std::uint64_t count) {
   return count <= kMostCounted;
 }
+/// Nor is a leap believed so far: from where it ends one has to be able to count on, and others to leap there. No power
+/// of two, as numbers are that a flipped bit makes: of one that is just believed, the next would not be.
+inline constexpr std::uint64_t kMostLeapt = kMostCounted / 4 * 3;
 
 /// Whether a number that others know of may be so far beyond what is known here.
 class LeapJudge {
  public:
-  explicit LeapJudge(std::uint64_t furthest) : furthest_(furthest) {}
+  explicit LeapJudge(std::uint64_t furthest, std::uint64_t most = kMostLeapt) : furthest_(furthest), most_(most) {}
 
   /// What leaps is believed when it is said for the third time in a row, or something near.
   [[nodiscard]] bool believes(std::uint64_t known, std::uint64_t heard) {
@@ -29,6 +32,7 @@ class LeapJudge {
       times_ = 0;
       return true;
     }
+    if (heard > most_) return false;
     const std::uint64_t apart = heard > last_ ? heard - last_ : last_ - heard;
     times_ = times_ > 0 && apart <= furthest_ ? times_ + 1 : 1;
     last_ = heard;
@@ -40,7 +44,7 @@ class LeapJudge {
   static constexpr int kWitnesses = 3;
 
  private:
-  std::uint64_t furthest_;
+  std::uint64_t furthest_, most_;
   std::uint64_t last_ = 0;
   int times_ = 0;
 };
@@ -51,11 +55,11 @@ class TermJudge {
   static constexpr std::uint64_t kFurthest = 4;
 
   [[nodiscard]] bool believes(std::uint64_t known, std::uint64_t heard) {
-    return counted(heard) && leaps_.believes(generation(known), generation(heard));
+    return leaps_.believes(generation(known), generation(heard));
   }
 
  private:
-  LeapJudge leaps_{kFurthest};
+  LeapJudge leaps_{kFurthest, generation(kMostLeapt)};
 };
 
 /// The sequence of one sender's messages, of which some are lost, some come twice and some come late.

@@ -79,9 +79,25 @@ TEST(TermJudge, BelievesNoGenerationThatIsFarAndSaidOnce) {
   EXPECT_TRUE(judge.believes(known, next_term(far, 5))) << "somebody who was away is told by more than one";
 }
 
-TEST(TermJudge, BelievesNothingFromWhichTheNextTermOverflows) {
-  EXPECT_GT(next_term(kMostCounted, 0), kMostCounted);
-  EXPECT_FALSE(counted(kMostCounted + 1));
+TEST(TermJudge, BelievesNoLeapFromWhichNobodyCouldCountOn) {
+  TermJudge judge;
+  std::uint64_t term = kMostLeapt;
+  for (int i = 0; i < 2; ++i) EXPECT_FALSE(judge.believes(next_term(0, 1), term));
+  ASSERT_TRUE(judge.believes(next_term(0, 1), term));
+  for (int i = 0; i < 1000; ++i) {
+    const std::uint64_t next = next_term(term, kLargest);
+    EXPECT_TRUE(counted(next) && judge.believes(term, next));
+    term = next;
+  }
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(judge.believes(next_term(0, 1), kMostCounted));
+}
+
+TEST(LeapJudge, BelievesNoLeapFromWhichNobodyCouldCountOn) {
+  LeapJudge judge(100);
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(judge.believes(7, kMostLeapt + 1));
+  for (int i = 0; i < 2; ++i) EXPECT_FALSE(judge.believes(7, kMostLeapt));
+  EXPECT_TRUE(judge.believes(7, kMostLeapt));
+  EXPECT_TRUE(judge.believes(kMostLeapt, kMostLeapt + 1)) << "it is counted on from";
 }
 
 }  // namespace

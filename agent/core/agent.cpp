@@ -32,12 +32,6 @@ Command command_of(const mechanics::Reference& r, double stiffness_n_m) {
   return {r.position_w_m, protocol::winch_length(r, stiffness_n_m)};
 }
 
-/// Where a carrier is `age_s` after it said so.
-Command command_of(const protocol::CarrierState& s, double age_s) {
-  return {{s.position_w_m + age_s * s.velocity_w_m_s, s.velocity_w_m_s, Eigen::Vector3d::Zero()},
-          {s.winch_length_m + age_s * s.winch_rate_m_s, s.winch_rate_m_s, 0.0}};
-}
-
 }  // namespace
 
 Agent::Agent(const AgentOptions& options)
@@ -51,6 +45,13 @@ Agent::Agent(const AgentOptions& options)
 
 Outputs Agent::step(LocalTime now, const Event& event) {
   Outputs out;
+  // What waited for a process that was stopped is as old as that, whenever it says that it arrived. To whoever flies it
+  // does not matter soon; whoever is about to begin would begin there.
+  if (stepped_at_ && now - *stepped_at_ > (flown_at_ ? options_.stall : 5 * options_.control_period)) {
+    awake_since_ = now;
+    vehicle_.reset();
+  }
+  stepped_at_ = now;
   std::visit([&](const auto& e) { on(now, e, out); }, event);
   out.next_tick = next_tick_;
   return out;
@@ -169,7 +170,10 @@ void Agent::on(LocalTime now, const protocol::Beacon& beacon, Outputs& out) {
     ++dropped_.nonsense;
     return;
   }
-  if (heard_ && beacon.sequence > heard_->sequence) beacons_missed_ += beacon.sequence - heard_->sequence - 1;
+  if (heard_ && beacon.sequence > heard_->sequence + 1) {
+    beacons_missed_ += beacon.sequence - heard_->sequence - 1;
+    awaited_until_ = std::max(awaited_until_, now + options_.lossy);
+  }
   ++beacons_received_;
   coordinator_.heard(now);
   heard_ = beacon;
@@ -276,6 +280,7 @@ bool Agent::merge_to(LocalTime now, const protocol::Course& course) {
     if (another) merge_.begin(time, merge_.apply(time, path(course_)), path(course));
     return true;
   }
+  if (awake_since_ && now - *awake_since_ < options_.backlog) return false;
   if (!wants_vehicle_since_) wants_vehicle_since_ = now;
   if (vehicle_ && now - vehicle_heard_ <= options_.vehicle_timeout) {
     begin_at_the_vehicle(now, path(course));
@@ -293,29 +298,6 @@ void Agent::give_way() {
   wants_vehicle_since_.reset();
   flown_at_.reset();
   awake_since_.reset();
-}
-
-/// After a stall, its own or the wire's to the vehicle, the vehicle has gone on by itself: what it is told next begins
-/// where it is. False while that is unknown.
-bool Agent::back_at_the_vehicle(LocalTime now) {
-  if (flown_at_ && now - *flown_at_ > options_.stall && !awake_since_) {
-    awake_since_ = now;
-    vehicle_.reset();
-  }
-  if (awake_since_) {
-    const Duration awake = now - *awake_since_;
-    if (awake < options_.backlog || (!vehicle_ && awake < options_.vehicle_wait)) return false;
-    if (vehicle_) begin_at_the_vehicle(now, path(course_));
-    awake_since_.reset();
-  }
-  flown_at_ = now;
-  return true;
-}
-
-void Agent::begin_at_the_vehicle(LocalTime now, const Path& path) {
-  merge_.begin(clock_.at(now), command_of(*vehicle_, seconds(now - vehicle_heard_)), path);
-  steps_.forget();  // it was silent, and what it said before was not flown
-  flown_at_ = now;  // a stall before the first setpoint is one, too
 }
 
 void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
@@ -358,37 +340,6 @@ void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
     if (heard_) adopt(now, out);
     out.status = status(now);  // the coordinator is waiting for that, too
   }
-}
-
-void Agent::on(LocalTime now, const protocol::CarrierState& state, Outputs& /*out*/) {
-  if (!sane(state) || state.carrier != options_.carrier) {
-    ++dropped_.nonsense;
-    return;
-  }
-  const protocol::Incumbent::Verdict verdict = vehicles_.hear(now, state.incarnation);
-  if (verdict == protocol::Incumbent::Verdict::kRival) {
-    ++dropped_.duplicate;
-    return;
-  }
-  // Silent while this agent was awake; after a stall of its own, what comes first is old (back_at_the_vehicle).
-  const bool flies = flown_at_ && now - *flown_at_ <= options_.stall;
-  const bool was_silent = vehicle_ && now - vehicle_heard_ > options_.vehicle_timeout;
-  const bool another = vehicle_ && verdict == protocol::Incumbent::Verdict::kSucceeds;
-  vehicle_ = state;
-  vehicle_heard_ = now;
-  if (flies && (was_silent || another) && is_lost(now)) awake_since_ = now;
-  if (!flies || state.follows == 0 || state.follows == options_.incarnation) {
-    unfollowed_since_.reset();
-  } else if (!unfollowed_since_) {
-    unfollowed_since_ = now;
-  }
-}
-
-bool Agent::is_lost(LocalTime now) const {
-  const std::optional<SwarmTime> time = swarm_time(now);
-  if (!time || !reference(course_, *time)) return false;
-  const Command asked = merge_.apply(*time, path(course_));
-  return (asked.position_w_m.value - vehicle_->position_w_m).norm() > options_.vehicle_lost_m;
 }
 
 std::optional<mechanics::Reference> Agent::reference(const protocol::Course& course, SwarmTime now) const {

@@ -34,9 +34,10 @@ struct AgentOptions {
   Duration hurry = std::chrono::milliseconds(5);  ///< instead, from the first beacon on until it knows swarm time
   Duration status_period = std::chrono::milliseconds(100);
   /// While a change is agreed, and until the coordinator has seen that all have begun it, it waits for every word: at
-  /// 60 % loss one in ten agents would not be heard in time otherwise.
+  /// 60 % loss one in ten agents would not be heard in time otherwise. Nor would the lease of many agents grow there.
   Duration status_period_awaited = std::chrono::milliseconds(25);
   Duration awaited = std::chrono::milliseconds(1500);  ///< since a proposal or a new course was first heard
+  Duration lossy = std::chrono::milliseconds(300);  ///< since a beacon was missed: what is said here is lost as often
   Duration request_period = std::chrono::milliseconds(125);
   /// An answer waits for a beat of the coordinator and one here, 30 ms: what is not there by then was lost. At 60 %
   /// loss five of six exchanges are, and without asking again it takes half a minute to learn how the clocks drift.
@@ -121,6 +122,8 @@ class Agent {
   void give_way();
   [[nodiscard]] bool back_at_the_vehicle(LocalTime now);
   void begin_at_the_vehicle(LocalTime now, const Path& path);
+  /// Whether the vehicle says that it follows another agent.
+  [[nodiscard]] bool led_by_another(LocalTime now) const;
   /// Whether the vehicle is too far from what it was asked for to have heard it.
   [[nodiscard]] bool is_lost(LocalTime now) const;
   /// Of a course whose plans are held; lives no longer than the course.
@@ -162,8 +165,9 @@ class Agent {
   LocalTime vehicle_heard_{};
   std::optional<LocalTime> unfollowed_since_;  ///< the vehicle says that it follows another agent
   std::optional<LocalTime> wants_vehicle_since_;
-  std::optional<LocalTime> flown_at_;  ///< the last setpoint, or where the vehicle was when it began
-  std::optional<LocalTime> awake_since_;
+  std::optional<LocalTime> stepped_at_;
+  std::optional<LocalTime> flown_at_;     ///< the last setpoint, or where the vehicle was when it began
+  std::optional<LocalTime> awake_since_;  ///< after it was stopped, or not followed: the vehicle has gone on
   std::optional<LocalTime> doubted_at_;
 
   std::uint64_t setpoints_ = 0;

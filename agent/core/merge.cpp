@@ -58,6 +58,10 @@ double distance_m(const Command& a, const Command& b) {
   return std::hypot((a.position_w_m.value - b.position_w_m.value).norm(), a.winch_m.value - b.winch_m.value);
 }
 
+/// Whoever is further ahead on a path that repeats is behind by the rest of it. What lies ahead is known only until the
+/// lease ends, and that is told anew ten times a second; what is left of it when it is not extended any more is more.
+constexpr double kMostAhead_s = 0.5;
+
 /// What a motion asks for at most, and the delay [s] with which it comes nearest to a place.
 struct Look {
   double speed_m_s = 0.0;
@@ -68,10 +72,11 @@ struct Look {
 Look look_along(const Path& path, SwarmTime now, const Command& place) {
   constexpr int kMoments = 64;
   const double step_s = seconds(*path.period) / kMoments;
+  const double most_ahead_s = std::min(kMostAhead_s, 0.5 * seconds(*path.period));
   Look look;
   double least_m = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMoments; ++i) {
-    const double delay_s = step_s * (i % 2 == 0 ? i / 2 : -(i + 1) / 2);  // from the present outwards
+    const double delay_s = step_s * i - most_ahead_s;
     const Command c = path.at(now - from_seconds(delay_s));
     look.speed_m_s = std::max(look.speed_m_s, c.position_w_m.first.norm());
     look.acceleration_m_s2 = std::max(look.acceleration_m_s2, c.position_w_m.second.norm());
@@ -86,8 +91,9 @@ Look look_along(const Path& path, SwarmTime now, const Command& place) {
     return m * m;  // smooth where the place lies on the path
   };
   constexpr int kBits = 30;
-  look.nearest_s =
-      boost::math::tools::brent_find_minima(squared_m2, look.nearest_s - step_s, look.nearest_s + step_s, kBits).first;
+  look.nearest_s = boost::math::tools::brent_find_minima(squared_m2, std::max(look.nearest_s - step_s, -most_ahead_s),
+                                                         look.nearest_s + step_s, kBits)
+                       .first;
   return look;
 }
 

@@ -28,7 +28,7 @@ std::optional<std::string> Agent::complaint(LocalTime now) const {
   if (plans_.find(course_.base.number) == nullptr) return "has no plan yet";
   if (vehicles_.contested(now)) return "two vehicles, or simulators, tell where this carrier is; end one of them";
   // Whoever takes over is followed within kSucceeded.
-  if (unfollowed_since_ && now - *unfollowed_since_ > 2 * protocol::kSucceeded) {
+  if (led_by_another(now) && now - *unfollowed_since_ > 2 * protocol::kSucceeded) {
     return "its vehicle follows another agent; end one of the two";
   }
   if (withheld_ && now - withheld_->at <= options_.complained) return withheld_->why;

@@ -141,5 +141,33 @@ TEST_F(IdentityTest, SaysThatItsVehicleFollowsAnotherAgentUnlessThatIsOverInAMom
   EXPECT_EQ(complaint(), "none");
 }
 
+TEST_F(IdentityTest, AnAgentWhoseVehicleFollowsAnotherSaysNothingAndThenBeginsWhereItIs) {
+  rest();
+  vehicle_->follows = kRival;
+  fly(milliseconds(100));
+  const std::uint64_t before = sent();
+  fly(seconds(2));
+  EXPECT_EQ(sent(), before) << "it would not be flown";
+  vehicle_->position_w_m += Eigen::Vector3d(0.2, 0.0, 0.1);
+  vehicle_->follows = 0;  // that one is gone
+  std::optional<protocol::Setpoint> first;
+  visit_ = [&](const protocol::Setpoint& s) {
+    if (!first) first = s;
+  };
+  fly(milliseconds(300));
+  ASSERT_TRUE(first);
+  EXPECT_LT((first->position_w_m - vehicle_->position_w_m).norm(), 1e-9);
+}
+
+TEST_F(IdentityTest, AnAgentDoesNotWaitForAVehicleThatIsNotHeardAnyMore) {
+  rest();
+  vehicle_->follows = kRival;
+  fly(milliseconds(100));
+  vehicle_.reset();
+  const std::uint64_t before = sent();
+  fly(seconds(2));
+  EXPECT_GT(sent(), before + 50);
+}
+
 }  // namespace
 }  // namespace gyre::agent

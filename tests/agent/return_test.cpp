@@ -162,6 +162,49 @@ TEST_F(AgentTest, RestartedAndStalledBeforeItsFirstSetpointItBeginsWhereItsCarri
   EXPECT_LT((first->position_w_m - vehicle_->position_w_m).norm(), 1e-3);
 }
 
+TEST_F(AgentTest, RestartedFarAheadOnItsPathItIsNotMovedByALeaseThatGrows) {
+  for (const double ahead_s : {0.3, 0.8, 1.2, 1.6, 2.0}) {
+    SCOPED_TRACE(ahead_s);
+    rest();
+    mechanics::Limits strong;
+    strong.speed_max_m_s = strong.acceleration_max_m_s2 = strong.winch_rate_max_m_s = 100.0;
+    restart(7, strong);
+    setpoint_.reset();
+    visit_ = nullptr;
+    offer({kMotion, kOther});
+    course(kMotion, 1.0);
+    vehicle_->position_w_m = mechanics::evaluate(slice(kMotion), ahead_s + 0.3).position_w_m.value;
+    course_->lease = swarm() + seconds(1);
+    fly(milliseconds(400));
+    ASSERT_TRUE(setpoint_);
+    watch_for_steps();
+    for (int i = 0; i < 100; ++i) {
+      course_->lease = swarm() + seconds(1);
+      fly(milliseconds(100));
+    }
+  }
+}
+
+TEST_F(AgentTest, StoppedBeforeItHadACourseItDoesNotBelieveWhatWaitedForIt) {
+  course_.reset();
+  offer({kMotion, kOther});
+  vehicle_at_rest();
+  const protocol::CarrierState old = *vehicle_;
+  fly(milliseconds(500));  // it has swarm time, and nothing to fly
+  now_ += milliseconds(400);
+  vehicle_->position_w_m += Eigen::Vector3d(0.2, 0.1, 0.0);
+  std::optional<protocol::Setpoint> first;
+  visit_ = [&](const protocol::Setpoint& s) {
+    if (!first) first = s;
+  };
+  course(kMotion, 1.0);
+  tell(old);  // what waited comes first
+  beacon();
+  fly(milliseconds(600));
+  ASSERT_TRUE(first);
+  EXPECT_LT((first->position_w_m - vehicle_->position_w_m).norm(), 1e-3);
+}
+
 TEST_F(AgentTest, RestartedItWaitsForItsVehicleButNotForEver) {
   offer({kMotion});
   course(kMotion, 1.0);

@@ -25,6 +25,9 @@ void Leading::change(Course course) {
 std::vector<PlanNumber> Leading::plans_in_use() const {
   std::vector<PlanNumber> numbers = protocol::plans_of(course_);  // first: these must never be left out
   numbers.push_back(plan_);
+  if (start_) {
+    for (const PlanNumber& number : protocol::plans_of(start_->before)) numbers.push_back(number);
+  }
   if (before_retune_) numbers.push_back(before_retune_->plan);
   return numbers;
 }
@@ -80,6 +83,13 @@ Intent Leading::transition_to(const PlanNumber& plan, const Wish& wish) const {
 /// until somebody wishes otherwise.
 void Leading::end_lease(SwarmTime now, Outputs& out) {
   if (!course_.lease || now <= *course_.lease) return;
+  // Whoever did not begin what went go has stopped, and nothing is turned back any more: that would move him.
+  if (is_unbegun(now)) {
+    forget_start();
+  } else if (start_) {
+    before_retune_.reset();
+  }
+  start_.reset();
   const protocol::Pace stopped = course_.flown_pace(now);
   const bool moved = stopped.target() != course_.pace.target() || stopped.at(now).at != course_.pace.at(now).at;
   // Also of a start that was turned back: whoever began it unheard has stopped, and must not begin again by itself.
@@ -88,8 +98,6 @@ void Leading::end_lease(SwarmTime now, Outputs& out) {
   course.pace = stopped;
   if (course.wish.pace != 0.0) course.wish = Wish{0.0, false, Wisher::kSilence};
   change(std::move(course));
-  if (start_) before_retune_.reset();  // what went go is not turned back any more
-  start_.reset();
   news_.tell(out, Notice::Level::kError, "the lease ended without a word of everybody: all stop together");
   if (agreement_) give_up(LocalTime(now.time_since_epoch() - swarm_offset_), "the lease has ended", out);
 }
@@ -236,7 +244,7 @@ void Leading::pursue(LocalTime now, Outputs& out) {
 
 void Leading::go(LocalTime now, Outputs& out) {
   const Intent& intent = agreement_->intent();
-  start_ = Start{agreement_->start(), agreement_->proposal().revision, course_};
+  start_ = Start{agreement_->start(), agreement_->proposal().revision, course_, std::nullopt};
   const std::optional<SwarmTime> lease = course_.lease;
   course_ = agreement_->proposal();
   course_.lease = lease;
@@ -252,7 +260,7 @@ void Leading::go(LocalTime now, Outputs& out) {
           ? text("the swarm comes to rest, within %.3g s", length_s)
           : text("the swarm goes to %.0f %% of its pace, within %.3g s", 100.0 * intent.wish.pace, length_s);
   news_.tell(out, Notice::Level::kInfo, told);
-  if (intent.command) desk_.answer(*intent.command, true, told, out.replies);
+  if (intent.command) desk_.promise(*intent.command, {course_.wish, told, now + options_.safe_within});
   failures_ = 0;
   agreement_.reset();
   plans_.keep(plans_in_use());
@@ -281,34 +289,54 @@ void Leading::give_up(LocalTime now, const std::string& why, Outputs& out) {
   offer_plans(out);
 }
 
+/// Whoever hears of a change long after it began leaps to where it has led; all of them would. So when nobody is known
+/// to have begun it, it is not said any more: those who have take no older course, and say so when they are heard
+/// again.
+bool Leading::is_unbegun(SwarmTime now) const {
+  if (!start_ || course_.revision != start_->revision || now < start_->at + options_.start_check) return false;
+  return std::none_of(swarm_.carriers.begin(), swarm_.carriers.end(),
+                      [this](CarrierId id) { return follows(id, start_->revision); });
+}
+
+/// What nobody has begun is as if it had never been; only the wish stays, and is pursued anew.
+void Leading::forget_start() {
+  Course course = start_->before;
+  course.wish = course_.wish;
+  course.lease = course_.lease;
+  if (!(protocol::plans_of(course).back() == protocol::plans_of(course_).back())) undo_retune();
+  start_.reset();
+  change(std::move(course));
+}
+
 void Leading::check_start(LocalTime now, Outputs& out) {
   if (!start_) return;
   const SwarmTime time = swarm_time(now);
   const bool overtaken = course_.revision != start_->revision;
-  if (!overtaken && time < start_->at + options_.start_check) return;
-  // Who hears nobody does not know who follows, and would not be heard.
-  if (!overtaken && swarm_.silent(now).size() == swarm_.carriers.size()) return;
-  const Start start = *start_;
-  start_.reset();
-  if (overtaken) return before_retune_.reset();
-  // Who said that it follows does so, silent or not, and its vehicle does when it dies.
-  std::vector<CarrierId> missing;
-  for (const CarrierId id : swarm_.carriers) {
-    const protocol::AgentStatus* s = swarm_.fleet.status(id);
-    const bool follows = s != nullptr && s->course.term == term_ && s->course.revision >= start.revision;
-    if (!follows) missing.push_back(id);
+  if (!overtaken) {
+    if (time < start_->at + options_.start_check) return;
+    // Who hears nobody does not know who follows, and would not be heard; and then everybody has to have his say.
+    if (swarm_.silent(now).size() == swarm_.carriers.size()) start_->deaf_at = now;
+    if (start_->deaf_at && now - *start_->deaf_at <= options_.agent_timeout) return;
   }
-  missing = without(missing, without_plan(now));
-  if (missing.empty() || shutting_down_) {
-    before_retune_.reset();
-    return;
+  const std::vector<CarrierId> missing = not_following(now, start_->revision);
+  if (overtaken || missing.empty() || (shutting_down_ && !is_unbegun(time))) {
+    start_.reset();
+    return before_retune_.reset();
   }
-  news_.tell(out, Notice::Level::kWarning,
-             listed("carrier", missing) + (missing.size() == 1 ? " does" : " do") +
-                 " not follow the change that began: turning back");
+  const std::string told = listed("carrier", missing) + (missing.size() == 1 ? " does" : " do") +
+                           " not follow the change that began: turning back";
+  news_.tell(out, Notice::Level::kWarning, told);
+  desk_.break_promises(told, out.replies);
   if (agreement_) give_up(now, "the change before it is turned back", out);
   retry_at_ = now + options_.stopping;
-  const SwarmTime back_at = time + options_.agreement.go_margin;
+  is_unbegun(time) ? forget_start() : turn_back(time);
+  plans_.keep(plans_in_use());
+}
+
+void Leading::turn_back(SwarmTime now) {
+  const Start start = *start_;
+  start_.reset();
+  const SwarmTime back_at = now + options_.agreement.go_margin;
   Course course = course_;
   if (course.transitions.size() > start.before.transitions.size()) {
     const PlanNumber abandoned = course.transitions.back().to.number;
@@ -321,7 +349,6 @@ void Leading::check_start(LocalTime now, Outputs& out) {
     course.pace = course.pace.with_ramp(back_at, options_.stopping, start.before.pace.target());
   }
   change(std::move(course));
-  plans_.keep(plans_in_use());
 }
 
 }  // namespace gyre::coordinator

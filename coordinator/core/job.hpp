@@ -45,6 +45,8 @@ struct CoordinatorOptions {
   Duration longest_ramp = std::chrono::minutes(5);        ///< that is tried to keep the limits
   Duration start_check = std::chrono::milliseconds(300);  ///< after a start, to see that everybody follows
   Duration patience = std::chrono::seconds(1);            ///< with complaints that are only late, before they are told
+  Duration safe_within =
+      std::chrono::milliseconds(1500);  ///< a wish, in the agents' hands; or its answer says it is not
   AgreementOptions agreement;
   int release_attempts = 5;  ///< at shutdown, with agents that do not answer
 };

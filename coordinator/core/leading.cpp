@@ -65,6 +65,7 @@ void Leading::tick(LocalTime now, Outputs& out) {
     if (course_.transitions.empty()) mixture_.clear();
     news_.tell(out, Notice::Level::kInfo, text("the load is held by the %s plan", plans_.name(course_.base.number)));
   }
+  desk_.keep_promises(now, course_.wish, news_.latest, why_unsafe(now), out.replies);
   // Of n slices: not for every beacon.
   if (settled || now >= next_status_) budget_in_force_ = skew_budget(protocol::plans_of(course_));
   if (consensus_.doubtful(swarm_.carriers)) {
@@ -82,6 +83,10 @@ void Leading::tick(LocalTime now, Outputs& out) {
     drive(now, out);
   }
   out.beacon = protocol::Beacon{term_, ++sequence_, time, course_, std::nullopt, budget_in_force_};
+  if (is_unbegun(time)) {
+    out.beacon->course = start_->before;
+    out.beacon->course.lease = course_.lease;
+  }
   if (agreement_ && agreement_->proposed()) out.beacon->proposal = agreement_->proposal();
   if (now >= next_status_) {
     next_status_ = now + options_.status_period;
@@ -131,11 +136,13 @@ void Leading::learn(const protocol::HeldPlans& held, Outputs& out) {
 void Leading::stand_down(const std::string& why, Outputs& out) {
   if (agreement_ && agreement_->intent().command) desk_.answer(*agreement_->intent().command, false, why, out.replies);
   agreement_.reset();
+  desk_.break_promises(why, out.replies);
 }
 
 void Leading::shut_down(Outputs& out) {
   if (!shutting_down_) news_.tell(out, Notice::Level::kInfo, "ending the flight: to rest");
   shutting_down_ = true;
+  desk_.break_promises("the flight is ending", out.replies);
 }
 
 // ---------------------------------------------------------------------------------------------------------- commands
@@ -143,12 +150,14 @@ void Leading::shut_down(Outputs& out) {
 std::optional<std::string> Leading::command_obstacle(LocalTime now, const protocol::Command& command) const {
   const SwarmTime time = swarm_time(now);
   const double target = course_.pace.target();
-  const bool resting = course_.wish.pace == 0.0 && course_.wish.by != Wisher::kNobody;
+  // What may be forgotten is not "already" so: whoever asks again gets another answer.
+  const bool safe = !why_unsafe(now);
+  const bool resting = safe && course_.wish.pace == 0.0 && course_.wish.by != Wisher::kNobody;
   if (shutting_down_) return "the flight is ending";
   if (agreement_ && command.kind != CommandKind::kFreeze) return "a change is being agreed; try again in a second";
   switch (command.kind) {
     case CommandKind::kEngage:
-      if (course_.wish.pace == 1.0 && !course_.wish.rest_when_changed && target == 1.0)
+      if (safe && course_.wish.pace == 1.0 && !course_.wish.rest_when_changed && target == 1.0)
         return "already in full motion, or on the way there";
       break;
     case CommandKind::kRelease:
@@ -163,7 +172,7 @@ std::optional<std::string> Leading::command_obstacle(LocalTime now, const protoc
       if (auto why = too_slow(command.pace, job_.plan.limits, plans_.figures(protocol::plans_of(course_).back()))) {
         return why;
       }
-      if (course_.wish.pace == command.pace && !course_.wish.rest_when_changed && target == command.pace) {
+      if (safe && course_.wish.pace == command.pace && !course_.wish.rest_when_changed && target == command.pace) {
         return "already at that pace";
       }
       break;
@@ -186,10 +195,12 @@ void Leading::command(LocalTime now, const protocol::Command& command, Outputs& 
   const bool at_once = command.kind == CommandKind::kFreeze;
   const auto only_wish = [&](const std::string& told) {
     if (agreement_) give_up(now, "overtaken by another command", out);
-    protocol::Course course = course_;
-    course.wish = wish;
-    change(std::move(course));
-    answer(true, told);
+    if (!(course_.wish == wish)) {
+      protocol::Course course = course_;
+      course.wish = wish;
+      change(std::move(course));
+    }
+    desk_.promise(command.id, {wish, told, now + options_.safe_within});
   };
   if (wish.pace == 0.0 && rests) return only_wish("at rest, and stays so until somebody engages");
   if (const auto gone = swarm_.why_out_of_touch(now); wish.pace == 0.0 && gone && course_.lease) {
@@ -257,6 +268,33 @@ std::vector<CarrierId> Leading::without_plan(LocalTime now) const {
     if (!swarm_.fleet.silent(now, id) && std::any_of(plans.begin(), plans.end(), unknown)) out.push_back(id);
   }
   return out;
+}
+
+/// It does so, silent or not, and its vehicle does when it dies.
+bool Leading::follows(CarrierId carrier, std::uint64_t revision) const {
+  const protocol::AgentStatus* s = swarm_.fleet.status(carrier);
+  return s != nullptr && s->course.term == term_ && s->course.revision >= revision;
+}
+
+std::vector<CarrierId> Leading::not_following(LocalTime now, std::uint64_t revision) const {
+  std::vector<CarrierId> out;
+  for (const CarrierId id : swarm_.carriers) {
+    if (!follows(id, revision)) out.push_back(id);
+  }
+  return without(out, without_plan(now));
+}
+
+/// Why the next coordinator may know nothing of the course, if this one dies now: somebody whom it may hear does not
+/// follow it yet. Who is out of touch will not, for now, and is named in the answers; but what is not seen to have
+/// begun may be turned back.
+std::optional<std::string> Leading::why_unsafe(LocalTime now) const {
+  const std::vector<CarrierId> missing = not_following(now, course_.revision);
+  if (missing.empty()) return std::nullopt;
+  const bool nobody = missing.size() == swarm_.carriers.size();
+  const std::vector<CarrierId> late = start_ ? missing : without(missing, swarm_.out_of_touch(now));
+  if (late.empty() && !nobody) return std::nullopt;
+  return (nobody ? "no agent has" : listed("carrier", late) + (late.size() == 1 ? " has" : " have")) +
+         " said that it is known there, and it may be forgotten with this coordinator";
 }
 
 std::optional<std::string> Leading::obstacle(LocalTime now, bool departs) const {

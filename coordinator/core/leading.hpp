@@ -64,6 +64,13 @@ class Leading {
   [[nodiscard]] bool departure_is_due(LocalTime now);
   [[nodiscard]] std::optional<std::string> command_obstacle(LocalTime now, const protocol::Command& command) const;
   [[nodiscard]] std::vector<CarrierId> without_plan(LocalTime now) const;
+  /// Whether it has said that it follows this revision of the course.
+  [[nodiscard]] bool follows(CarrierId carrier, std::uint64_t revision) const;
+  /// Who has not, silent or not.
+  [[nodiscard]] std::vector<CarrierId> not_following(LocalTime now, std::uint64_t revision) const;
+  [[nodiscard]] std::optional<std::string> why_unsafe(LocalTime now) const;
+  /// Of what went go: all had the time to begin it, and to say so, and nobody has.
+  [[nodiscard]] bool is_unbegun(SwarmTime now) const;
   /// Until a retune is agreed, and all were seen to follow, the one before it.
   [[nodiscard]] const Job& mission_in_force() const { return before_retune_ ? before_retune_->job : job_; }
   [[nodiscard]] Duration skew_budget(const std::vector<protocol::PlanNumber>& plans) const;
@@ -81,6 +88,8 @@ class Leading {
   void go(LocalTime now, Outputs& out);
   void give_up(LocalTime now, const std::string& why, Outputs& out);
   void check_start(LocalTime now, Outputs& out);
+  void turn_back(SwarmTime now);
+  void forget_start();
   void undo_retune();
   [[nodiscard]] RampLimits ramp_limits() const;
   [[nodiscard]] Duration stopping_time() const {
@@ -118,6 +127,7 @@ class Leading {
     SwarmTime at{};
     std::uint64_t revision = 0;
     protocol::Course before;
+    std::optional<LocalTime> deaf_at;  ///< nobody at all was heard
   };
   std::optional<Start> start_;  ///< of what went go last, still to be looked at
 

@@ -9,7 +9,7 @@ std::optional<SwarmTime> LeaseBook::step(LocalTime now, SwarmTime time, const pr
   if (!silence.stop_after) return granted_ = std::nullopt;
   const SwarmTime ahead = time + *silence.stop_after;
   const SwarmTime next = ahead - ahead.time_since_epoch() % kStep;
-  SwarmTime least = next;
+  SwarmTime least = SwarmTime::max();
   bool all = true;
   for (const CarrierId id : carriers) {
     const protocol::AgentStatus* status = fleet.status(id);
@@ -18,16 +18,21 @@ std::optional<SwarmTime> LeaseBook::step(LocalTime now, SwarmTime time, const pr
     if (confirmed != confirmed_.end()) least = std::min(least, confirmed->second);
     all = all && confirmed != confirmed_.end() && fleet.in_touch(now, id);
   }
-  // The first one is nobody's to confirm: nothing moves yet.
-  if (!granted_ || (all && least >= std::min(*granted_, next))) {
-    // What has ended is known to have ended; what is about to end could not be taken back any more.
-    const bool too_late = granted_ && time <= *granted_ && *granted_ - time <= kPatience + kBelieved;
+  // Nobody moves before the first one, which is nobody's to confirm, nor after the end of one, which all know.
+  const bool nobody_moves = !granted_ || time > *granted_;
+  const Duration took = time - granted_at_;
+  if (!granted_ || (all && least >= *granted_)) {
+    // What is about to end could not be taken back any more.
+    const bool too_late = !nobody_moves && *granted_ - time <= kPatience + kBelieved;
     if (!granted_ || (next > *granted_ && !too_late)) {
-      granted_ = next;
+      if (took <= kPatience) reach_ = std::clamp(2 * took, kStep, kReach);
+      granted_ = nobody_moves ? next : std::min(next, *granted_ + reach_);
       granted_at_ = time;
     }
-  } else if (time - granted_at_ > kPatience && least > time) {
-    granted_ = std::min(*granted_, least);
+  } else if (took > kPatience && least > time && least < *granted_) {
+    // Longer by next to nothing: a late word about this step shall not confirm the next one.
+    reach_ = std::max(kStep, *granted_ - least + Duration(1));
+    granted_ = least;
   }
   return granted_;
 }

@@ -7,9 +7,13 @@
 // it confirmed last: the others go back to that, and all stop together. What is left to chance is a step that was on
 // its way when the link broke. Nothing is extended while somebody is out of touch: not heard, or not hearing.
 //
-// And no step is made so late that it could not be taken back.
+// A step is what two of them may stop apart. So it is no longer than it has to be, whatever silence lies behind it:
+// kStep where it is confirmed at once; where packets are lost, twice as long as the one before took to be confirmed,
+// for the lease has to grow faster than time passes; never longer than kReach. And none is made so late that it could
+// not be taken back.
 //
 //   granted      what beacons say
+//   reach        the longest that the next step may be
 //   confirmed    per carrier, what its agent last said it holds; it survives the agent, whose vehicle holds it as well
 
 #include <map>
@@ -25,6 +29,10 @@ class LeaseBook {
   static constexpr Duration kStep = std::chrono::milliseconds(100);
   /// Without a confirmation for so long, a step is taken back.
   static constexpr Duration kPatience = std::chrono::milliseconds(450);
+  /// A step is no longer. Where 60 % of all packets are lost, 4 agents confirm one within 0.15 s, 16 within 0.25 s, 100
+  /// within 0.35 s, on average; after a silence of 2 s their lease is long again after 2, 3 and 7 s. With 0.3 s it is
+  /// after 3 and 8 s, and 100 run out of it.
+  static constexpr Duration kReach = kPatience;
   /// A beacon may be so old and is still taken (agent/core/agent.hpp, beacon_age_max): one that comes late must not
   /// wake those who have stopped.
   static constexpr Duration kBelieved = std::chrono::milliseconds(300);
@@ -39,6 +47,7 @@ class LeaseBook {
  private:
   std::optional<SwarmTime> granted_;
   SwarmTime granted_at_{};
+  Duration reach_ = kStep;
   std::map<CarrierId, SwarmTime> confirmed_;
 };
 

@@ -63,6 +63,7 @@ TEST(Command, IsRememberedOverSixtyThreeOthers) {
   SwarmOfAgents swarm(job());
   swarm.fly(seconds(1));
   swarm.tell(of(CommandKind::kFreeze, 100));
+  swarm.fly(milliseconds(200));
   const std::uint64_t revision = swarm.coordinator().course().revision;
   for (std::uint64_t id = 101; id < 164; ++id) swarm.tell(of(CommandKind::kFreeze, id));
   swarm.replies.clear();
@@ -81,6 +82,19 @@ TEST(Command, IsAnsweredWhereItIsDoneAlready) {
   swarm.fly(seconds(10));
   EXPECT_TRUE(says(swarm.command(CommandKind::kRelease, {}), "refused: already at rest"));
   EXPECT_TRUE(says(swarm.command(CommandKind::kFreeze, {}), "refused: nothing moves"));
+}
+
+TEST(Command, IsDoneWhenTheAgentsHoldIt) {
+  SwarmOfAgents swarm(job());
+  swarm.fly(seconds(1));
+  swarm.deaf = {1, 2, 3, 4};
+  EXPECT_TRUE(says(swarm.command(CommandKind::kFreeze, seconds(2)), "refused: not safe yet: no agent has said"));
+  swarm.deaf.clear();
+  EXPECT_TRUE(says(swarm.command(CommandKind::kFreeze, milliseconds(200)), "done: at rest, and stays so"));
+  // One who is out of touch keeps nobody from it: his word counts less than that of those who hold the wish.
+  swarm.deaf = {3};
+  EXPECT_TRUE(says(swarm.command(CommandKind::kFreeze, seconds(1)), "refused: nothing moves"));
+  EXPECT_TRUE(says(swarm.command(CommandKind::kEngage, milliseconds(20)), "refused: carrier 3"));
 }
 
 TEST(Command, WaitsForTheOneThatIsBeingAgreedUnlessItFreezes) {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <string>
 
 #include "common/protocol/sanity.hpp"
@@ -77,6 +79,22 @@ inline void check_invariants(const std::optional<protocol::Beacon>& before, cons
   const Duration off = now.at - before->course.moment(b.swarm_time).at;
   EXPECT_LE(std::abs(off.count()), kRounding.count());
 }
+
+/// The beacons of one swarm.
+class Said {
+ public:
+  void check(const protocol::Beacon& b, const protocol::Silence& silence) {
+    if (last_ && last_->term != b.term) by_revision_.clear();
+    // What was said already may be said again, in the place of what nobody has begun.
+    const auto again = by_revision_.find(b.course.revision);
+    check_invariants(again == by_revision_.end() ? last_ : again->second, b, silence);
+    by_revision_[b.course.revision] = last_ = b;
+  }
+
+ private:
+  std::optional<protocol::Beacon> last_;
+  std::map<std::uint64_t, std::optional<protocol::Beacon>> by_revision_;  ///< in this term, the last of each
+};
 
 /// Whoever is to fly a course was offered all that is in it.
 inline void check_that_plans_are_offered(const protocol::Beacon& b, const protocol::PlanOffer& offer) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace gyre::coordinator {
 namespace {
@@ -179,7 +180,8 @@ TEST_F(Leases, ThatWentBackDoNotGrowUntilAllHaveHeardMore) {
   }
   hears_ = true;
   confirm_all(first);
-  EXPECT_EQ(step(milliseconds(3000)), kBegin + seconds(8));
+  EXPECT_EQ(step(milliseconds(3000)), *first + milliseconds(200) + Duration(1))
+      << "not what was taken back, of which one knows";
 }
 
 TEST_F(Leases, DoNotGrowWhereAStepCouldNotBeTakenBackAnyMore) {
@@ -188,18 +190,45 @@ TEST_F(Leases, DoNotGrowWhereAStepCouldNotBeTakenBackAnyMore) {
   ASSERT_EQ(step(milliseconds(4249)), first);
   confirm_all(first);
   const LeaseBook in_time = book_;
-  EXPECT_EQ(LeaseBook(in_time).step(local(), now_, silence_, {1, 2}, fleet_), kBegin + milliseconds(9200));
+  EXPECT_EQ(LeaseBook(in_time).step(local(), now_, silence_, {1, 2}, fleet_), *first + LeaseBook::kStep);
   EXPECT_EQ(step(milliseconds(4250)), first);
   EXPECT_EQ(step(milliseconds(5000)), first);
   confirm_all(first);
   EXPECT_EQ(step(milliseconds(5001)), kBegin + seconds(10)) << "all have stopped, and hold the same";
 }
 
+TEST_F(Leases, GrowByNoMoreThanAStepWhateverSilenceWasBefore) {
+  const auto first = step(milliseconds(0));
+  ASSERT_EQ(step(milliseconds(3000)), first);
+  confirm_all(first);
+  ASSERT_EQ(step(milliseconds(3010)), *first + LeaseBook::kStep) << "two of them may stop so far apart, and no more";
+  confirm_all(first);
+  EXPECT_EQ(step(milliseconds(3020)), *first + LeaseBook::kStep);
+  confirm_all(*first + LeaseBook::kStep);
+  EXPECT_EQ(step(milliseconds(3030)), *first + 2 * LeaseBook::kStep) << "at once, to catch up";
+}
+
+TEST_F(Leases, GrowBySoMuchThatTheyGrowFasterThanTimeWhereWordsAreLate) {
+  auto lease = *step(milliseconds(0));
+  Duration at = milliseconds(2000);
+  ASSERT_EQ(step(at), lease);
+  const auto grown = [&](Duration took) {
+    confirm_all(lease);
+    const auto next = *step(at += took);
+    return next - std::exchange(lease, next);
+  };
+  EXPECT_EQ(grown(milliseconds(150)), LeaseBook::kStep) << "a silence is no late word";
+  EXPECT_EQ(grown(milliseconds(150)), milliseconds(300));
+  EXPECT_EQ(grown(milliseconds(180)), milliseconds(360));
+  EXPECT_EQ(grown(milliseconds(400)), LeaseBook::kReach) << "and not by twice as much";
+  EXPECT_EQ(grown(milliseconds(20)), LeaseBook::kStep);
+}
+
 TEST_F(Leases, AreNotForThoseToConfirmWhoFlyNothing) {
   const auto first = step(milliseconds(0));
   now_ = kBegin + seconds(1);
   confirm(1, first);
-  EXPECT_EQ(book_.step(local(), now_, silence_, {1}, fleet_), kBegin + seconds(6));
+  EXPECT_EQ(book_.step(local(), now_, silence_, {1}, fleet_), *first + LeaseBook::kStep);
 }
 
 TEST_F(Leases, TakenOverAreWhatTheSwarmHas) {
@@ -209,7 +238,8 @@ TEST_F(Leases, TakenOverAreWhatTheSwarmHas) {
   confirm(2, kBegin + seconds(2));
   EXPECT_EQ(step(milliseconds(100)), kBegin + seconds(2)) << "nobody waits for a step that is long gone";
   confirm_all(kBegin + seconds(2));
-  EXPECT_EQ(step(milliseconds(200)), kBegin + milliseconds(5200));
+  EXPECT_EQ(step(milliseconds(200)), kBegin + seconds(3) + Duration(1))
+      << "who knows of that one confirms nothing by it";
 }
 
 TEST_F(Leases, AreNotOfASwarmThatFliesOn) {

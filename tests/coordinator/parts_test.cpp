@@ -72,6 +72,44 @@ TEST(Fleet, AnySignOfTheLifeThatIsBelievedKeepsItAlive) {
   EXPECT_TRUE(fleet.silent(kNow + milliseconds(851), 1)) << "another life is no sign of this one";
 }
 
+TEST(CommandDesk, TellsThatAWishIsDoneWhenItIsSafe) {
+  CommandDesk desk;
+  CommandDesk::Replies replies;
+  const protocol::Wish rest{0.0, false, protocol::Wisher::kPerson};
+  (void)desk.heard_before(1, replies);
+  desk.promise(1, {rest, "at rest", kNow + seconds(1)});
+  desk.keep_promises(kNow, rest, "", "nobody knows", replies);
+  EXPECT_TRUE(desk.heard_before(1, replies));
+  EXPECT_TRUE(replies.empty()) << "not yet";
+  desk.keep_promises(kNow + milliseconds(20), rest, "", std::nullopt, replies);
+  ASSERT_EQ(replies.size(), 1U);
+  EXPECT_TRUE(replies[0].done);
+  EXPECT_EQ(replies[0].text, "at rest");
+  desk.keep_promises(kNow + milliseconds(40), rest, "", std::nullopt, replies);
+  EXPECT_EQ(replies.size(), 1U) << "once, unless it is asked for";
+}
+
+TEST(CommandDesk, TellsWhyAWishIsNotDone) {
+  const protocol::Wish rest{0.0, false, protocol::Wisher::kPerson};
+  const protocol::Wish motion{1.0, false, protocol::Wisher::kPerson};
+  const protocol::Wish silence{0.0, false, protocol::Wisher::kSilence};
+  const auto told = [&](const protocol::Wish& asked, const protocol::Wish& in_force, Duration after) {
+    CommandDesk desk;
+    CommandDesk::Replies replies;
+    (void)desk.heard_before(1, replies);
+    desk.promise(1, {asked, "done", kNow + seconds(1)});
+    desk.keep_promises(kNow + after, in_force, "the lease ended", "carrier 3 has not said so", replies);
+    desk.break_promises("the coordinator ends", replies);
+    EXPECT_EQ(replies.size(), 1U);
+    EXPECT_FALSE(replies.at(0).done);
+    return replies.at(0).text;
+  };
+  EXPECT_EQ(told(rest, rest, seconds(1)), "not safe yet: carrier 3 has not said so; ask again");
+  EXPECT_EQ(told(rest, motion, {}), "overtaken by another command");
+  EXPECT_EQ(told(motion, silence, {}), "overtaken: the lease ended");
+  EXPECT_EQ(told(rest, rest, {}), "the coordinator ends");
+}
+
 TEST(CommandDesk, GivesAnAnswerAgainAndForgetsTheOldest) {
   CommandDesk desk;
   CommandDesk::Replies replies;

@@ -195,7 +195,7 @@ TEST(Silence, OfAMomentIsNoReasonToStop) {
       cut(swarm, how);
       swarm.fly(seconds(4));
       heal(swarm);
-      swarm.fly(seconds(1));
+      swarm.fly(seconds(2));  // a lease grows by steps
     }
     swarm.fly(seconds(10));
     EXPECT_EQ(swarm.pace(), 1.0) << swarm.news;
@@ -242,7 +242,7 @@ TEST(Silence, OfWhoIsToBeReleasedSetsTheWishAndAllStopAtTheEndOfTheLease) {
     swarm.deaf = swarm.mute = {3};
     swarm.fly(seconds(1));
     const SwarmTime end = *swarm.course().lease;
-    const std::string answer = swarm.command(kind, milliseconds(20));
+    const std::string answer = swarm.command(kind, milliseconds(200));
     EXPECT_TRUE(says(answer, "done: carrier 3 is silent: all stop together, 3.9 s from now")) << answer;
     EXPECT_EQ(swarm.course().wish.pace, 0.0);
     EXPECT_EQ(swarm.course().wish.by, Wisher::kPerson);

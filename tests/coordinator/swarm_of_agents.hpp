@@ -51,10 +51,9 @@ class SwarmOfAgents {
   agent::Agent& twin(CarrierId id) { return *twins_.at(id); }
 
   void tell(const Event& event) {
-    if (!coordinator_) return;
-    const Outputs out = coordinator_->step(now, event);
+    const Outputs out = coordinator_ ? coordinator_->step(now, event) : Outputs{};
     for (const Notice& notice : out.notices) news += notice.text + "\n";
-    for (const protocol::CommandReply& reply : out.replies) replies.push_back(reply);
+    replies.insert(replies.end(), out.replies.begin(), out.replies.end());
     if (out.finished) finished = out.finished;
     if (out.status) status = out.status;
     for (const protocol::PlanOffer& offer : out.offers) {
@@ -66,7 +65,7 @@ class SwarmOfAgents {
       tell_agent(out.time_reply->carrier, agent::TimeReplyArrived{*out.time_reply, now});
     }
     if (out.beacon) {
-      check_invariants(beacon, *out.beacon, silence);
+      said_.check(*out.beacon, silence);
       for (const auto& [id, offer] : offers_) {
         if (nobody_knows.count(id) == 0) check_that_plans_are_offered(*out.beacon, offer);
       }
@@ -213,6 +212,7 @@ class SwarmOfAgents {
   std::map<CarrierId, std::unique_ptr<agent::Agent>> agents_, twins_;
   std::map<CarrierId, protocol::PlanOffer> offers_;
   std::map<CarrierId, protocol::HeldPlans> held_;
+  Said said_;
   std::uint64_t incarnations_ = 0;
   std::uint64_t commands_ = 0;
 };

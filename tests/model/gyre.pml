@@ -42,8 +42,11 @@
 #endif
 #define CLAIM(number, holds) assert((ONLY != 0 && ONLY != number) || (holds))
 
+#ifndef REACH
+#define REACH PATIENCE /* LeaseBook::kReach */
+#endif
 #ifndef APART
-#define APART 1 /* grants, between the stops of two agents */
+#define APART REACH /* the stops of two agents, at most */
 #endif
 
 /* A moment is told as how far ahead it is: 0: none; 1: it is over; 2 + n: n rounds ahead. */
@@ -63,7 +66,8 @@ typedef Course {
   bit wish;         /* pace wished: 0 rest, 1 full motion */
   unsigned by : 2;  /* whose wish */
   bit target;       /* pace flown */
-  unsigned lease : 4
+  unsigned lease : 4;
+  bit newest        /* of all leases that were granted; no two are the same to the nanosecond */
 }
 typedef Proposal { unsigned rev : 4; bit wish; unsigned by : 2 } /* rev 0: none */
 typedef Beacon { bit there; byte term; Course course; Proposal next }
@@ -84,8 +88,9 @@ unsigned until_start : 3;
 unsigned check_rev : 4; /* 0: nothing to check */
 unsigned check_in : 3;
 bit check_before;
+bit asked;       /* for rest, and not answered */
 typedef Member { bit known; unsigned heard : 2; unsigned hears : 2; unsigned rev : 4; unsigned confirmed : 4;
-                 unsigned lease : 4; bit ready }
+                 unsigned lease : 4; bit newest; bit ready }
 Member member[2];
 
 /* The agents, what is on its way to them, and from them. */
@@ -100,10 +105,9 @@ Beacon now_sent; Status now_said;
 /* What only the claims look at. */
 unsigned commands : 2, changes : 3;
 bit descending;       /* the second coordinator's nonce is the lower one, or the higher one */
-bit rest_held;        /* a person asked for rest, and all agents held that wish */
+bit told;             /* a person asked for rest, and was told "done" */
 bit stopped[2];       /* by the end of a lease, and no person has engaged since */
 bit all_stopped;      /* all of them were, at once */
-unsigned grants : 14;  /* every moment that was granted, one bit each */
 
 #define MOVES(i) (agent[i].course.rev != 0 && agent[i].course.target == 1 && !IS_OVER(agent[i].course.lease))
 #define NEWER(a, b) (a.term > b.term || (a.term == b.term && a.rev > b.rev))
@@ -113,9 +117,10 @@ unsigned grants : 14;  /* every moment that was granted, one bit each */
 #define RESTS (c.target == 0 || IS_OVER(c.lease))
 
 inline copy(a, b) {
-  a.term = b.term; a.rev = b.rev; a.wish = b.wish; a.by = b.by; a.target = b.target; a.lease = b.lease
+  a.term = b.term; a.rev = b.rev; a.wish = b.wish; a.by = b.by; a.target = b.target; a.lease = b.lease;
+  a.newest = b.newest
 }
-inline forget(a) { a.term = 0; a.rev = 0; a.wish = 0; a.by = 0; a.target = 0; a.lease = 0 }
+inline forget(a) { a.term = 0; a.rev = 0; a.wish = 0; a.by = 0; a.target = 0; a.lease = 0; a.newest = 0 }
 inline forget_beacon(b) {
   b.there = 0; b.term = 0; forget(b.course); b.next.rev = 0; b.next.wish = 0; b.next.by = 0
 }
@@ -127,10 +132,10 @@ inline forget_check() { check_rev = 0; check_in = 0; check_before = 0 }
 
 inline die() {
   phase = DEAD; term = 0; highest = 0; forget(c); last_rev = 0; granted_age = 0;
-  forget_next(); forget_check();
+  forget_next(); forget_check(); asked = 0;
   for (k : 0 .. 1) {
     member[k].known = 0; member[k].heard = 0; member[k].hears = 0; member[k].rev = 0; member[k].confirmed = 0;
-    member[k].lease = 0; member[k].ready = 0
+    member[k].lease = 0; member[k].newest = 0; member[k].ready = 0
   }
   k = 0
 }
@@ -162,6 +167,7 @@ inline lead() {
   c.wish = 0; c.by = NOBODY;
 #endif
   change();
+  c.newest = 0; granted_age = TIMEOUT + 1; nobody_confirms(0);
   phase = LEADS;
   for (k : 0 .. 1) { member[k].rev = 0; member[k].confirmed = 0 } /* said to somebody else */
   k = 0
@@ -179,6 +185,7 @@ inline take(i, s, overtaken) {
      fi;
      agent[i].hears = 0;
      member[i].known = 1; member[i].heard = 0;
+     member[i].newest = (s.course.lease -> s.course.newest : member[i].newest);
      member[i].lease = (s.course.lease -> s.course.lease : member[i].lease);
      member[i].ready = (phase == LISTENS || c.by == NOBODY) && s.course.rev != 0 &&
                        (s.course.target == 0 || IS_OVER(s.course.lease));
@@ -207,6 +214,12 @@ inline take(i, s, overtaken) {
 
 /* Leading::end_lease */
 inline end_lease() {
+#ifndef BREAK_CHECK /* a change that nobody has begun when the lease ends is turned back */
+  if
+  :: IS_OVER(c.lease) -> forget_check()
+  :: else
+  fi;
+#endif
   if
   :: IS_OVER(c.lease) && (c.target == 1 || (c.wish == 1 && !TURNED_BACK_FLIES)) ->
      c.target = 0;
@@ -220,7 +233,7 @@ inline end_lease() {
 #endif
      :: else
      fi;
-     change(); forget_check(); forget_next()
+     change(); forget_next()
   :: else
   fi
 }
@@ -228,28 +241,53 @@ inline end_lease() {
 #define CONFIRMED(i) (member[i].known && member[i].lease != 0)
 #define LEAST2(a, b) ((a) < (b) -> (a) : (b))
 
-inline grant() { c.lease = NEXT; granted_age = 0; grants = grants | (1 << NEXT) }
+/* By others than this coordinator the same moment may have been granted before. */
+inline nobody_confirms(others) {
+  for (k : 0 .. 1) {
+    agent[k].course.newest = others && agent[k].course.term != term;
+    to[k].course.newest = others && to[k].there && to[k].course.term != term;
+    from[k].course.newest = others && from[k].there && from[k].course.term != term;
+    member[k].newest = others && member[k].known && member[k].rev == 0
+  }
+}
+inline grant(moment) { c.lease = moment; c.newest = 1; granted_age = 0; nobody_confirms(1) }
+
+#ifdef BREAK_STEP /* as long as the silence before it */
+#define STEP NEXT
+#else
+#define STEP REACH
+#endif
 
 /* LeaseBook::step */
 inline step_lease() {
-  least = NEXT;
+  least = NEXT + 1;
   for (k : 0 .. 1) { least = (CONFIRMED(k) -> LEAST2(least, member[k].lease) : least) }
   all = CONFIRMED(0) && IN_TOUCH(0) && CONFIRMED(1) && IN_TOUCH(1);
-  if
-  :: c.lease == 0 -> grant()
-#ifdef BREAK_LEASE /* extended with every beacon, whoever has confirmed it */
-  :: c.lease != 0 -> grant()
+#ifdef BREAK_NEWEST /* a step that was taken back is granted once more, and words about the first one confirm it */
+  all = all && least >= c.lease;
 #else
-  :: c.lease != 0 && all && least >= LEAST2(c.lease, NEXT) ->
+  all = all && least >= c.lease && (!c.newest || (member[0].newest && member[1].newest));
+#endif
+  if
+  :: all -> c.newest = 0; nobody_confirms(0)
+  :: else
+  fi;
+  if
+  :: c.lease == 0 -> grant(NEXT)
+#ifdef BREAK_LEASE /* extended with every beacon, whoever has confirmed it */
+  :: c.lease != 0 -> grant(NEXT)
+#else
+  :: c.lease != 0 && all ->
      if
-     :: NEXT > c.lease && (IS_OVER(c.lease) || c.lease - 2 > PATIENCE + SPARE) -> grant()
+     :: IS_OVER(c.lease) -> grant(NEXT)
+     :: !IS_OVER(c.lease) && NEXT > c.lease && c.lease - 2 > PATIENCE + SPARE ->
+        least = LEAST2(NEXT, c.lease + STEP);
+        grant(least)
      :: else
      fi
-  :: c.lease != 0 && !(all && least >= LEAST2(c.lease, NEXT)) ->
+  :: c.lease != 0 && !all ->
      if
-     :: granted_age > PATIENCE && least > 2 ->
-        c.lease = LEAST2(c.lease, least);
-        grants = grants & ((1 << (c.lease + 1)) - 1) /* the next step goes from here */
+     :: granted_age > PATIENCE && least > 2 -> c.lease = LEAST2(c.lease, least); c.newest = 0; nobody_confirms(0)
      :: else
      fi
 #endif
@@ -287,6 +325,7 @@ inline pursue() {
      CLAIM(2, agent[1].term == term && agent[1].confirmed == next.rev);
      check_rev = next.rev; check_in = until_start + CHECK; check_before = c.target;
      c.rev = next.rev; c.wish = next.wish; c.by = next.by; c.target = next.wish;
+     asked = c.by == PERSON && c.wish == 0;
      forget_next()
   :: else ->
      if
@@ -309,8 +348,29 @@ inline drive() {
   fi
 }
 
+#define FOLLOWS(i) (member[i].known && member[i].rev >= c.rev)
+
+/* CommandDesk::keep_promises, Leading::why_unsafe: of who is out of touch nothing is promised. */
+inline keep_promises() {
+  if
+  :: asked && (c.wish == 1 || c.by != PERSON) -> asked = 0
+#ifdef BREAK_DONE /* told as soon as it is granted */
+  :: asked && c.wish == 0 && c.by == PERSON -> told = 1; asked = 0
+#endif
+  :: asked && c.wish == 0 && c.by == PERSON && FOLLOWS(0) && FOLLOWS(1) -> told = 1; asked = 0
+  :: asked && c.wish == 0 && c.by == PERSON && FOLLOWS(0) != FOLLOWS(1) &&
+       (FOLLOWS(0) || !IN_TOUCH(0)) && (FOLLOWS(1) || !IN_TOUCH(1)) ->
+#ifdef CLAIM_SILENT
+     told = 1;
+#endif
+     asked = 0
+  :: else
+  fi
+}
+
 /* Leading::tick */
 inline tick() {
+  keep_promises();
   end_lease();
   step_lease();
   check_start();
@@ -323,7 +383,7 @@ inline tick() {
 /* Leading::command, command_obstacle: what is not obeyed changes nothing, and is not modelled. */
 inline engage() {
   commands++;
-  stopped[0] = 0; stopped[1] = 0; all_stopped = 0; rest_held = 0;
+  stopped[0] = 0; stopped[1] = 0; all_stopped = 0; told = 0; asked = 0;
   if
   :: c.target == 1 -> c.wish = 1; c.by = PERSON; change()
   :: else -> begin(1, PERSON)
@@ -333,7 +393,12 @@ inline rest() {
   commands++;
   forget_next();
   if
-  :: RESTS || !IN_TOUCH(0) || !IN_TOUCH(1) -> c.wish = 0; c.by = PERSON; change()
+  :: RESTS || !IN_TOUCH(0) || !IN_TOUCH(1) ->
+     if
+     :: c.wish == 0 && c.by == PERSON
+     :: else -> c.wish = 0; c.by = PERSON; change()
+     fi;
+     asked = 1
   :: else -> begin(0, PERSON)
   fi
 }
@@ -377,26 +442,12 @@ inline judge(i) {
   CLAIM(3, agent[0].course.rev == 0 || agent[0].course.term != agent[1].course.term ||
          agent[0].course.rev != agent[1].course.rev || SAME(agent[0].course, agent[1].course));
   /* Claim 1: what a person stopped stays stopped. */
-  CLAIM(1, !(rest_held && agent[i].course.wish == 1));
+  CLAIM(1, !(told && agent[i].course.wish == 1));
   /* Claim 5: what a lease stopped stays stopped. */
   CLAIM(5, !(all_stopped && MOVES(i)));
 #ifdef CLAIM_STOPPED_ALONE
   CLAIM(5, !(stopped[i] && MOVES(i)));
 #endif
-}
-
-#define HOLDS_REST(i) (agent[i].course.rev != 0 && agent[i].course.by == PERSON && agent[i].course.wish == 0)
-
-/* A coordinator took the wish and lived until all agents held it. */
-inline watch() {
-  if
-#ifdef CLAIM_WISH_OF_ONE
-  :: phase == LEADS && c.by == PERSON && c.wish == 0 && (HOLDS_REST(0) || HOLDS_REST(1)) -> rest_held = 1
-#else
-  :: phase == LEADS && c.by == PERSON && c.wish == 0 && HOLDS_REST(0) && HOLDS_REST(1) -> rest_held = 1
-#endif
-  :: else
-  fi
 }
 
 /* ------------------------------------------------------------------------------------------------------ network */
@@ -459,13 +510,8 @@ inline ends(i) {
   if
   :: agent[i].course.lease == 2 && MOVES(i) ->
      stopped[i] = 1;
-     /* Claim 4: all stop at the same moment, or a grant apart: nobody has one in between. */
-     apart = 0;
-     for (k : 3 .. NEXT) {
-       apart = apart + (MOVES(1 - i) && k <= agent[1 - i].course.lease && (grants & (1 << k)) != 0)
-     }
-     CLAIM(4, apart <= APART);
-     apart = 0
+     /* Claim 4: all stop at the same moment, or a step apart. */
+     CLAIM(4, !MOVES(1 - i) || agent[1 - i].course.lease - 2 <= APART)
   :: else
   fi
 }
@@ -498,15 +544,14 @@ inline pass() {
   }
   AGE(granted_age); granted_age = (phase == LEADS -> granted_age : 0);
   DOWN(until_start); DOWN(check_in);
-  grants = (grants >> 1) & ~3;
   all_stopped = all_stopped || (stopped[0] && stopped[1] && !MOVES(0) && !MOVES(1));
-  watch(); k = 0
+  k = 0
 }
 
 /* -------------------------------------------------------------------------------------------------------- rounds */
 
 init {
-  byte k, least, apart; bit all, overtook;
+  byte k, least; bit all, overtook;
   if
   :: descending = 0
   :: LIVES > 2 -> descending = 1
@@ -544,6 +589,14 @@ init {
        :: true
        fi
      };
-     atomic { status_of(0); status_of(1); d_step { pass() } }
+     atomic {
+       status_of(0); status_of(1);
+       if
+       :: d_step { pass() }
+#ifdef HASTE /* what is said once in a round may be said several times: a lease that is behind is extended so */
+       :: phase == LEADS && c.lease > OVER && c.lease < NEXT
+#endif
+       fi
+     }
   od
 }

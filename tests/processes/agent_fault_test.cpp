@@ -173,6 +173,25 @@ TEST_F(AgentFaultTest, AnAgentsLinkIsCutAndAllStopTogether) {
   expect_still(measure("and heard again, engaged", ""));
 }
 
+TEST_F(AgentFaultTest, NothingReachesACarrierForThreeSeconds) {
+  for (const double rate : {kRate_rad_s, 1.0}) {
+    ASSERT_NO_FATAL_FAILURE(fly(mission_at(rate, kStop)));
+    network_->cut(udp_ports(flight_->pid(agent_name(3))), instrument());
+    wait(3.0);
+    EXPECT_GT(network_->lost(), 100U);
+    EXPECT_NE(flight_->said("coordinator").find("agent 3 is silent"), std::string::npos);
+    network_->heal();
+    const auto back = FaultFlight::seconds_until(kRecovery_s, [&] { return flight_->all_flying(); });
+    ASSERT_TRUE(back) << flight_->said_by_all();
+    wait(kLease_s);
+    EXPECT_TRUE(flight_->all_flying()) << "what was in doubt was only the lease";
+    const Row& row = measure(text("every packet of an agent lost for 3 s at %.1f rad/s, on board, too", rate),
+                             text("it hears the coordinator again %.1f s after", *back));
+    expect_unmoved(row);
+    flight_.reset();
+  }
+}
+
 TEST_F(AgentFaultTest, AnAgentsLinkIsCutAndAllFlyOn) {
   ASSERT_NO_FATAL_FAILURE(fly(mission_with(kFlyOn)));
   cut_off(3);

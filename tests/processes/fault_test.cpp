@@ -211,6 +211,7 @@ TEST_F(FaultTest, TheCoordinatorIsKilledWhileThePaceChanges) {
 TEST_F(FaultTest, TheCoordinatorIsKilledWhileItProposes) {
   ASSERT_NO_FATAL_FAILURE(start(mission(), {}, false));
   ASSERT_TRUE(FaultFlight::seconds_until(kStart_s, [&] { return flight_->all_ready(); })) << flight_->said_by_all();
+  wait(1.0);                              // what somebody complained of is settled by a word of its own
   flight_->send(agent_name(3), SIGSTOP);  // does not confirm, and is not silent yet
   flight_->observer().command(CommandKind::kEngage);
   const auto proposed = [&] { return flight_->beacon()->proposal.has_value(); };

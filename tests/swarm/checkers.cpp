@@ -20,8 +20,9 @@ constexpr double kMerging_m = 1e-6;
 const double kSilenceSeconds = seconds(agent::AgentOptions{}.stall) + 0.05;
 /// Of the clock that is read, by rounding and by reading it at two moments of one step.
 constexpr double kSwarmTimeJump_s = 2e-6;
-/// The clock is slewed by 1 % at most, and its rate may be taken for one that is 5000 ppm off.
-constexpr double kSlew = 0.0155;
+/// The clock is slewed by 1 % at most, and its rate may for a while be taken for one that is 1 % off
+/// (common/protocol/timekeeper.cpp).
+constexpr double kSlew = 0.0205;
 
 /// A coordinator that recovers learns swarm time from messages: as late as they were, and as wrong as their senders.
 constexpr Duration kRecoveryError = std::chrono::milliseconds(50);

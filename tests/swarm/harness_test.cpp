@@ -146,7 +146,9 @@ TEST(Judges, SeeALossThatIsNotNamed) {
   scenario.actions.insert(std::prev(scenario.actions.end()), kill);
   EXPECT_TRUE(fly(scenario).good());
   Sabotage s;
-  s.coordinator_says = [](std::size_t, TrueTime, coordinator::Outputs& out) { out.notices.clear(); };
+  s.coordinator_says = [](std::size_t, TrueTime now, coordinator::Outputs& out) {
+    if (at_or_after(now, 12.0)) out.notices.clear();
+  };
   EXPECT_TRUE(finds(fly(scenario, s), "loss"));
 }
 
@@ -163,6 +165,7 @@ TEST(Judges, SeeTwoAgentsThatBothFlyOneCarrier) {
   EXPECT_TRUE(fly(scenario).good());
   Sabotage s;
   s.vehicles_follow_anybody = true;
+  s.vehicles_do_not_tell_whom = true;
   EXPECT_TRUE(fly(scenario, s).good()) << "the second one knows that it is not believed";
   s.coordinator_says = [](std::size_t, TrueTime, coordinator::Outputs& out) {
     if (out.time_reply) out.time_reply->believed = 0;
@@ -172,6 +175,10 @@ TEST(Judges, SeeTwoAgentsThatBothFlyOneCarrier) {
   const FlightReport kept = fly(scenario, s);
   EXPECT_TRUE(kept.good()) << "the vehicle follows one of them" << describe(kept);
   EXPECT_GT(kept.faults.rivals_unheard, 100U);
+  s.vehicles_do_not_tell_whom = false;
+  const FlightReport known = fly(scenario, s);
+  EXPECT_TRUE(known.good()) << describe(known);
+  EXPECT_EQ(known.faults.rivals_unheard, 0U) << "what would not be flown is not said";
 }
 
 TEST(Judges, SeeTwoCoordinatorsThatDoNotHearEachOther) {

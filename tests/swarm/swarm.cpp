@@ -231,7 +231,7 @@ void Swarm::start(std::size_t process) {
   p.joined = false;
   p.held_until = TrueTime{};
   p.inbox.clear();
-  p.sends_setpoints = false;
+  p.sends_setpoints = p.known = false;
   say([&] { return p.name(process) + " starts"; });
   if (is_agent(process)) {
     agent::AgentOptions options;

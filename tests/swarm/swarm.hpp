@@ -38,6 +38,7 @@ struct Sabotage {
   std::function<bool(std::size_t coordinator)> coordinator_is_deaf;  ///< to other coordinators' beacons
   std::function<Duration(std::size_t process, TrueTime)> clock_error;
   bool vehicles_follow_anybody = false;
+  bool vehicles_do_not_tell_whom = false;
 };
 
 struct Process;
@@ -130,6 +131,7 @@ class Swarm {
   Trace trace_;
   Network network_;
   Checkers checkers_;
+  int beginnings_ = 0;  ///< of the flight, by any coordinator
   FaultCounts faults_;
   TrueTime now_{};
   std::uint64_t happenings_made_ = 0;

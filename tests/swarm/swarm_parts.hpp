@@ -91,6 +91,7 @@ struct Process {
   std::uint64_t incarnation = 0;  ///< of the agent
   bool joined = false;
   bool sends_setpoints = false;
+  bool known = false;  ///< to a coordinator, which said so
   bool suspended = false;
   TrueTime held_until{};
   TrueTime tick_at{};

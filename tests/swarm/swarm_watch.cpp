@@ -16,13 +16,15 @@ constexpr Duration kLeftAlone = std::chrono::milliseconds(40);
 /// docs/design.md "Loss table": an agent that falls silent is named within this time.
 constexpr Duration kNamedWithin = std::chrono::milliseconds(500);
 constexpr Duration kLongestHeldBack = std::chrono::seconds(3);
+/// With more, what was said last may arrive too late for that.
+constexpr Duration kCalm = std::chrono::milliseconds(5);
 
 }  // namespace
 
 void Swarm::observe() {
   schedule({now_ + kObservation, 0, Happening::kObservation, 0, 0, nullptr});
   const Weather& w = network_.weather;
-  const bool bad = w.loss > 0.3 || w.bursts_per_s > 0.0 || w.overtaken > 0.0 || w.lies > 0.0 ||
+  const bool bad = w.loss > 0.3 || w.bursts_per_s > 0.0 || w.overtaken > 0.0 || w.lies > 0.0 || w.jitter > kCalm ||
                    !network_.groups.empty() || coordinators_alive() != 1;
   if (bad || w.garbage > 0.0) troubled_until_ = now_ + kLongestHeldBack;
   tell_vehicle_states();
@@ -32,6 +34,11 @@ void Swarm::observe() {
 
 void Swarm::hear_notice(const std::string& notice) {
   const auto tells = [&notice](const std::string& what) { return notice.find(what) != std::string::npos; };
+  for (Process& p : processes_) {
+    if (tells(text("agent %u is here", p.carrier)) || tells(text("agent %u was restarted", p.carrier))) p.known = true;
+  }
+  // Two coordinators that began at once had each a swarm time of its own.
+  if (tells("the load is held by") && tells("at rest") && ++beginnings_ > 1) checkers_.clock_stopped(std::nullopt);
   if (tells("turning back")) ++faults_.turned_back;
   if (tells("all stop together")) ++faults_.leases_ended;
   if (tells("has left its path")) ++faults_.stuck;
@@ -55,6 +62,7 @@ std::size_t Swarm::vehicle_of(std::size_t process) const {
 
 protocol::CarrierState Swarm::vehicle_state(std::size_t agent) {
   protocol::CarrierState s = vehicles_[agent].state(now_);
+  if (sabotage_.vehicles_do_not_tell_whom) s.follows = 0;
   s.carrier = processes_[agent + kCoordinators].carrier;
   return s;
 }
@@ -112,7 +120,7 @@ bool Swarm::untroubled() const {
   if (now_ < troubled_until_ || network_.weather.loss > 0.0) return false;
   if (coordinators_alive() != 1 || coordinator()->term() == 0) return false;
   return std::all_of(processes_.begin(), processes_.end(), [this](const Process& p) {
-    return (p.carrier == 0 || p.sends_setpoints) && now_ >= p.held_until + kNamedWithin;
+    return (p.carrier == 0 || (p.sends_setpoints && p.known)) && now_ >= p.held_until + kNamedWithin;
   });
 }
 

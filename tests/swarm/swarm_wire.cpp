@@ -70,6 +70,10 @@ void Swarm::attempt(std::size_t index, bool again) {
   const Channel& channel = channels_[index];
   const Process& target = processes_[channel.to];
   if (!channel.latest || !target.running() || !target.joined || !processes_[channel.from].joined) return;
+  const Process& source = processes_[channel.from];
+  if (source.suspended && now_ < source.held_until) {
+    return schedule({source.held_until, 0, Happening::kRetry, index, channel.version, nullptr});
+  }
   if (again && !network_.asked_again(channel.from, channel.to)) {
     return schedule({now_ + kHeartbeat, 0, Happening::kRetry, index, channel.version, nullptr});
   }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -15,6 +16,8 @@
 #include <set>
 #include <sstream>
 #include <string>
+
+#include "tests/processes/hindrance.hpp"
 
 namespace gyre::test {
 namespace {
@@ -55,7 +58,10 @@ std::string ruleset(int percent, const std::vector<std::uint16_t>& spared) {
 }
 
 bool apply(const std::string& rules) {
-  return nft("'" + rules + "'").has_value();
+  const auto begin = std::chrono::steady_clock::now();
+  const bool done = nft("'" + rules + "'").has_value();
+  Hindrance::took(std::chrono::steady_clock::now() - begin);
+  return done;
 }
 
 bool raise_loopback() {

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "ground/flight/processor_account.hpp"
+#include "tests/processes/hindrance.hpp"
 
 namespace gyre::test {
 namespace {
@@ -70,13 +72,19 @@ class StarvedTests : public testing::EmptyTestEventListener {
     Duration late{};
   };
 
-  void OnTestStart(const testing::TestInfo&) override { watch_.begin(); }
+  void OnTestStart(const testing::TestInfo&) override {
+    Hindrance::begin();
+    watch_.begin();
+  }
   void OnTestEnd(const testing::TestInfo& test) override {
     const ground::StarvationJudge judge = watch_.judge();
-    std::printf("processors came at most %.3f s late through others: %s\n", seconds(judge.late_max()),
-                judge.starved() ? "the machine was starved" : "the machine had time");
-    if (test.result()->Failed() && judge.starved())
-      starved_.push_back({std::string(test.test_suite_name()) + "." + test.name(), judge.late_max()});
+    const bool starved = judge.starved() || Hindrance::spoilt();
+    const Duration late = std::max(judge.late_max(), Hindrance::longest());
+    std::printf("processors came at most %.3f s late through others, the packet filter %.3f s: %s\n",
+                seconds(judge.late_max()), seconds(Hindrance::longest()),
+                starved ? "the machine was starved" : "the machine had time");
+    if (test.result()->Failed() && starved)
+      starved_.push_back({std::string(test.test_suite_name()) + "." + test.name(), late});
   }
   [[nodiscard]] const std::vector<Test>& starved() const { return starved_; }
 
@@ -92,8 +100,8 @@ void run_again(std::vector<std::string> arguments, const std::vector<StarvedTest
   std::string filter = "--gtest_filter=";
   for (const auto& [name, late] : tests) {
     char line[256];
-    std::snprintf(line, sizeof line, "%s: run again, for the machine was starved: a processor came %.2f s late",
-                  name.c_str(), seconds(late));
+    std::snprintf(line, sizeof line, "%s: run again, for the machine was starved: it came %.2f s late", name.c_str(),
+                  seconds(late));
     std::puts(line);
     told << line << std::endl;
     filter += name + ":";

@@ -289,6 +289,20 @@ void Leading::give_up(LocalTime now, const std::string& why, Outputs& out) {
   offer_plans(out);
 }
 
+/// It does so, silent or not, and its vehicle does when it dies.
+bool Leading::follows(CarrierId carrier, std::uint64_t revision) const {
+  const protocol::AgentStatus* s = swarm_.fleet.status(carrier);
+  return s != nullptr && s->course.term == term_ && s->course.revision >= revision;
+}
+
+std::vector<CarrierId> Leading::not_following(LocalTime now, std::uint64_t revision) const {
+  std::vector<CarrierId> out;
+  for (const CarrierId id : swarm_.carriers) {
+    if (!follows(id, revision)) out.push_back(id);
+  }
+  return without(out, without_plan(now));
+}
+
 /// Whoever hears of a change long after it began leaps to where it has led; all of them would. So when nobody is known
 /// to have begun it, it is not said any more: those who have take no older course, and say so when they are heard
 /// again.

@@ -114,8 +114,17 @@ void Leading::heard(LocalTime now, const protocol::AgentStatus& status, Outputs&
 void Leading::seen(LocalTime now, const protocol::CarrierState& state, Outputs& out) {
   if (consensus_.doubtful(swarm_.carriers)) return;
   const auto slice = [&](const PlanNumber& number) { return plans_.slice(number, state.carrier); };
-  const auto planned = protocol::reference(course_, swarm_time(now), slice);
+  auto planned = protocol::reference(course_, swarm_time(now), slice);
   if (!planned || !planned->position_w_m.first.allFinite()) return;
+  // The vehicle of a silent agent goes on along the course that this one followed, if that is another one.
+  const protocol::AgentStatus* agent = swarm_.fleet.status(state.carrier);
+  if (agent != nullptr && swarm_.fleet.silent(now, state.carrier)) {
+    const auto off_m = [&](const mechanics::Reference& r) {
+      return (r.position_w_m.value - state.position_w_m).norm();
+    };
+    const auto followed = protocol::reference(agent->course, swarm_time(now), slice);
+    if (followed && followed->position_w_m.first.allFinite() && off_m(*followed) < off_m(*planned)) planned = followed;
+  }
   paths_.take(now, state, planned->position_w_m);
   if (const auto stuck = paths_.stuck(now, swarm_.carriers.size())) stop_with(now, *stuck, out);
 }
@@ -268,20 +277,6 @@ std::vector<CarrierId> Leading::without_plan(LocalTime now) const {
     if (!swarm_.fleet.silent(now, id) && std::any_of(plans.begin(), plans.end(), unknown)) out.push_back(id);
   }
   return out;
-}
-
-/// It does so, silent or not, and its vehicle does when it dies.
-bool Leading::follows(CarrierId carrier, std::uint64_t revision) const {
-  const protocol::AgentStatus* s = swarm_.fleet.status(carrier);
-  return s != nullptr && s->course.term == term_ && s->course.revision >= revision;
-}
-
-std::vector<CarrierId> Leading::not_following(LocalTime now, std::uint64_t revision) const {
-  std::vector<CarrierId> out;
-  for (const CarrierId id : swarm_.carriers) {
-    if (!follows(id, revision)) out.push_back(id);
-  }
-  return without(out, without_plan(now));
 }
 
 /// Why the next coordinator may know nothing of the course, if this one dies now: somebody whom it may hear does not

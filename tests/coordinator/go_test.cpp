@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/protocol/follow.hpp"
 #include "tests/coordinator/flying.hpp"
 
 namespace gyre::coordinator {
@@ -91,6 +92,40 @@ TEST(Go, AfterWhichNobodyIsHeardLeavesWhatAllHaveBegun) {
   EXPECT_FALSE(says(swarm.news, "turning back")) << swarm.news;
   EXPECT_TRUE(swarm.rests());
   EXPECT_FALSE(swarm.moves());
+}
+
+TEST(Go, ThatAnAgentDiesBeforeIsNoReasonToTakeItsVehicleForStuck) {
+  Job slow = job();
+  slow.plan.cycle.rate_rad_s *= 0.3;
+  Flying swarm(slow);
+  const auto slices = mechanics::slices(slow.plan);
+  std::optional<protocol::Course> last;  // of agent 3, which its vehicle goes on along
+  const auto tell = [&](CarrierId id, const Eigen::Vector3d& position, const Eigen::Vector3d& velocity) {
+    protocol::CarrierState state;
+    state.carrier = id;
+    state.incarnation = 1;
+    state.position_w_m = position;
+    state.velocity_w_m_s = velocity;
+    swarm.tell(state);
+  };
+  swarm.visit = [&, confirmed = swarm.statuses[3].confirmed] {
+    if (!last && swarm.statuses[3].confirmed > confirmed) {
+      last = swarm.agent(3).course();
+      swarm.stop_agent(3);
+    }
+    for (const auto& [id, s] : swarm.setpoints) {
+      if (id != 3 || !last) tell(id, s.position_w_m, s.velocity_w_m_s);
+    }
+    if (!last) return;
+    const auto r = protocol::reference(*last, swarm.beacon->swarm_time, [&](const auto&) { return &slices.at(2); });
+    tell(3, r->position_w_m.value, r->position_w_m.first);
+  };
+  Job quick = job();  // by which the others make more than twice the way, before they turn back
+  quick.transition = seconds(1);
+  EXPECT_TRUE(says(swarm.retune(quick, milliseconds(1800)), "turning back"));
+  swarm.fly(seconds(12));
+  EXPECT_FALSE(says(swarm.news, "has left its path")) << swarm.news;
+  EXPECT_TRUE(says(swarm.news, "the lease ended")) << swarm.news;
 }
 
 }  // namespace

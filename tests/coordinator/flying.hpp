@@ -19,4 +19,16 @@ struct Flying : SwarmOfAgents {
   }
 };
 
+/// The mission whose swarm flies on, whoever falls silent.
+inline Job flies_on() {
+  Job flies_on = job();
+  flies_on.silence.stop_after.reset();
+  return flies_on;
+}
+
+inline void heal(SwarmOfAgents& swarm) {
+  swarm.deaf.clear();
+  swarm.mute.clear();
+}
+
 }  // namespace gyre::coordinator::test

@@ -13,21 +13,12 @@ using protocol::CommandKind;
 using protocol::Wisher;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using test::flies_on;
 using test::Flying;
+using test::heal;
 using test::job;
 using test::says;
 using test::SwarmOfAgents;
-
-Job flies_on() {
-  Job job = test::job();
-  job.silence.stop_after.reset();
-  return job;
-}
-
-void heal(SwarmOfAgents& swarm) {
-  swarm.deaf.clear();
-  swarm.mute.clear();
-}
 
 protocol::Command release() {
   protocol::Command command;

@@ -16,18 +16,14 @@ using protocol::Wisher;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using test::engaging;
+using test::flies_on;
 using test::Flying;
+using test::heal;
 using test::job;
 using test::says;
 using test::SwarmOfAgents;
 
 constexpr Duration kStopAfter = seconds(5);
-
-Job flies_on() {
-  Job job = test::job();
-  job.silence.stop_after.reset();
-  return job;
-}
 
 /// A way in which carrier 3 is lost.
 struct Cut {
@@ -40,11 +36,6 @@ void cut(SwarmOfAgents& swarm, const Cut& how) {
   if (!how.hears) swarm.deaf = {3};
   if (!how.is_heard) swarm.mute = {3};
 }
-void heal(SwarmOfAgents& swarm) {
-  swarm.deaf.clear();
-  swarm.mute.clear();
-}
-
 TEST(Lease, GrowsAsLongAsAllConfirmIt) {
   Flying swarm;
   swarm.visit = [&, last = *swarm.course().lease]() mutable {

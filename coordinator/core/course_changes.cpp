@@ -343,7 +343,11 @@ void Leading::check_start(LocalTime now, Outputs& out) {
   desk_.break_promises(told, out.replies);
   if (agreement_) give_up(now, "the change before it is turned back", out);
   retry_at_ = now + options_.stopping;
-  is_unbegun(time) ? forget_start() : turn_back(time);
+  if (is_unbegun(time)) {
+    forget_start();
+  } else {
+    turn_back(time);
+  }
   plans_.keep(plans_in_use());
 }
 

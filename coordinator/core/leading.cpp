@@ -77,7 +77,9 @@ void Leading::tick(LocalTime now, Outputs& out) {
   course_.lease =
       lease_.step(now, time, mission_in_force().silence, without(swarm_.carriers, without_plan(now)), swarm_.fleet);
   check_start(now, out);
-  if (agreement_) {
+  if (is_unbegun(time)) {
+    // Nothing goes while that is open: it would begin from what nobody flies.
+  } else if (agreement_) {
     pursue(now, out);
   } else {
     drive(now, out);

@@ -63,6 +63,26 @@ TEST(Go, ThatNobodyHearsMakesTheChangeOneThatNeverWas) {
   }
 }
 
+TEST(Go, ThatNobodyHearsIsNoPlaceToBeginAnotherChangeFrom) {
+  for (const CommandKind kind : {CommandKind::kFreeze, CommandKind::kPace}) {
+    Flying swarm(flies_on());
+    const std::uint64_t before = swarm.statuses[1].confirmed;
+    swarm.tell(release());
+    swarm.fly_until([&] { return swarm.statuses[4].confirmed > before; });
+    swarm.mute = swarm.deaf = {1, 2, 3, 4};
+    swarm.fly(seconds(20));
+    expect_no_leaps(swarm);
+    heal(swarm);
+    swarm.fly(milliseconds(300));  // they are heard again, and it is still to be seen who began
+    protocol::Command next;
+    next.id = 78;
+    next.kind = kind;
+    next.pace = 0.5;
+    swarm.tell(next);
+    swarm.fly(seconds(15));
+  }
+}
+
 TEST(Go, AfterWhichNobodyIsHeardLeavesWhatAllHaveBegun) {
   Flying swarm(flies_on());
   const std::uint64_t before = swarm.statuses[1].confirmed;

@@ -10,4 +10,8 @@ inline constexpr double kTwoPi = 2.0 * kPi;
   return angle_rad * (180.0 / kPi);
 }
 
+[[nodiscard]] constexpr double radians(double angle_deg) {
+  return angle_deg * (kPi / 180.0);
+}
+
 }  // namespace gyre

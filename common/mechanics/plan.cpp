@@ -37,6 +37,18 @@ const char* name(LengthLaw::Kind kind) {
   return "unknown";
 }
 
+std::vector<Eigen::Vector3d> box_hull(const Eigen::Vector3d& half_edges_m, const Eigen::Vector3d& centre_b_m) {
+  std::vector<Eigen::Vector3d> corners;
+  corners.reserve(8);
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      for (const double z : {-1.0, 1.0})
+        corners.emplace_back(centre_b_m + Eigen::Vector3d(x, y, z).cwiseProduct(half_edges_m));
+    }
+  }
+  return corners;
+}
+
 std::vector<Eigen::Vector3d> lever_arms(const Plan& plan) {
   const Eigen::Matrix3d rotation = plan.load.orientation_w_b.toRotationMatrix();
   std::vector<Eigen::Vector3d> arms;

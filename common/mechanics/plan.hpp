@@ -7,6 +7,7 @@
 //   b_i         attachment of carrier i on the load            3         B       m
 //   lambda_j    internal force along cycle edge j              1         -       N
 //   theta       phase of the cycle, rate · t                   1         -       rad
+//   k           stiffness of a cable                           1         -       N/m
 //
 //   lambda_j(t) = offset_j + amplitude_j sin(theta + phase_j)                                   (cycle parameters)
 //
@@ -27,6 +28,8 @@ struct Load {
   Eigen::Matrix3d inertia_b_kg_m2 = Eigen::Matrix3d::Zero();
   Eigen::Vector3d position_w_m = Eigen::Vector3d::Zero();
   Eigen::Quaterniond orientation_w_b = Eigen::Quaterniond::Identity();
+  /// Its shape is the convex hull of these points, B; none: nothing but its attachments.
+  std::vector<Eigen::Vector3d> hull_b_m;
 };
 
 struct Cable {
@@ -36,10 +39,24 @@ struct Cable {
   bool compensate_stretch = true;
 };
 
+/// What a winch can do; an absent limit is not judged.
+struct Winch {
+  double time_constant_s = 0.0;  ///< of its first-order lag, which is made up for
+  std::optional<double> rate_max_m_s, acceleration_max_m_s2;
+};
+
+/// What flies a carrier; an absent limit is not judged, and neither is without a mass.
+struct Vehicle {
+  double time_constant_s = 0.0;  ///< of its first-order lag, which is made up for
+  std::optional<double> mass_kg, thrust_max_n, bank_max_rad;
+};
+
 struct Carrier {
   CarrierId id = 0;
   Eigen::Vector3d attachment_b_m = Eigen::Vector3d::Zero();
   LengthLaw law;
+  double radius_m = 0.0;  ///< of the vehicle, rotors and wings included, about its place
+  Vehicle vehicle = {};
 };
 
 /// e_j = (from, to): the edge pushes +lambda_j d_j at `from` and −lambda_j d_j at `to`, d_j from `to` to `from`.
@@ -64,7 +81,8 @@ struct Limits {
   std::optional<double> winch_rate_max_m_s;
   std::optional<double> speed_min_m_s, speed_max_m_s;
   std::optional<double> acceleration_max_m_s2;
-  std::optional<double> separation_min_m;
+  std::optional<double> separation_min_m;  ///< of carriers' places
+  std::optional<double> clearance_min_m;   ///< of what may touch: cables, vehicles with their radius, the load's hull
   std::optional<double> vertical_cosine_min;
 };
 
@@ -76,10 +94,15 @@ struct Plan {
   Load load;
   double gravity_m_s2 = 9.81;
   Cable cable;
+  Winch winch;  ///< of every carrier
   std::vector<Carrier> carriers;
   Cycle cycle;
   Limits limits;
 };
+
+/// The corners of a box along the body axes.
+[[nodiscard]] std::vector<Eigen::Vector3d> box_hull(const Eigen::Vector3d& half_edges_m,
+                                                    const Eigen::Vector3d& centre_b_m);
 
 /// r_i = R b_i for every carrier, W.
 [[nodiscard]] std::vector<Eigen::Vector3d> lever_arms(const Plan& plan);

@@ -19,12 +19,6 @@
 
 namespace gyre::mission {
 
-/// How a winch follows its setpoint; absent: exactly, without a limit.
-struct Winch {
-  std::optional<double> time_constant_s;
-  std::optional<double> rate_max_m_s;
-};
-
 /// Force on the load, W. The same seed gives the same gusts.
 struct Wind {
   Eigen::Vector3d force_w_n = Eigen::Vector3d::Zero();
@@ -34,7 +28,8 @@ struct Wind {
 };
 
 struct Simulation {
-  std::optional<double> carrier_time_constant_s;  ///< absent: carriers follow exactly
+  std::optional<double> carrier_time_constant_s;  ///< that no agent knows of; absent: as their vehicles say
+  double lag_error = 0.0;                         ///< true lags are 1 + this times the declared ones
   std::optional<Wind> wind;                       ///< absent: calm
 };
 
@@ -47,7 +42,6 @@ struct LoadTolerance {
 struct Mission {
   std::string name = "unnamed";
   mechanics::Plan plan;
-  Winch winch;
   Simulation simulation;
   std::set<CarrierId> holds;                    ///< whose vehicles brake without setpoints; the others go on
   std::optional<double> transition_duration_s;  ///< absent: the coordinator chooses

@@ -1,16 +1,18 @@
 #include <google/protobuf/io/tokenizer.h>
 #include <google/protobuf/text_format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "common/base/angle.hpp"
 #include "common/mission/complaints.hpp"
+#include "common/mission/load_reader.hpp"
 #include "common/mission/located.hpp"
 #include "common/mission/mission.hpp"
 #include "common/mission/nesting.hpp"
 #include "common/mission/schema_complaint.hpp"
+#include "common/mission/spans.hpp"
 #include "common/mission/topology.hpp"
 #include "idl/mission.pb.h"
 
@@ -24,31 +26,6 @@ using mechanics::kMaxNumerator;
 using mechanics::LengthLaw;
 using mechanics::Oscillation;
 
-// What is not absurd. Anything outside is a slip of the unit or of the exponent, not a flight.
-constexpr Span kMassKg{1e-6, 1e6, "kg"};
-constexpr Span kInertia{-1e9, 1e9, "kg m^2"};
-constexpr Span kPlaceM{-1e5, 1e5, "m"};
-constexpr Span kLengthM{0.0, 1e5, "m"};
-constexpr Span kComponent{-1e6, 1e6, ""};
-constexpr Span kGravity{1e-3, 1e3, "m/s^2"};
-constexpr Span kForceN{-1e7, 1e7, "N"};
-constexpr Span kPositiveForceN{0.0, 1e7, "N"};
-constexpr Span kRate{1e-6, 1e3, "rad/s"};
-constexpr Span kPhaseRad{-1e3, 1e3, "rad"};
-constexpr Span kSpeed{0.0, 1e4, "m/s"};
-constexpr Span kAcceleration{0.0, 1e6, "m/s^2"};
-constexpr Span kStiffness{1e-3, 1e9, "N/m"};
-constexpr Span kDamping{0.0, 1e9, "N s/m"};
-constexpr Span kTimeConstantS{0.0, 1e3, "s"};
-constexpr Span kGustTimeS{1e-3, 1e4, "s"};
-constexpr Span kDurationS{0.1, 3600.0, "s"};
-constexpr Span kLeaseS{2.0, 600.0, "s"};
-static_assert(from_seconds(kLeaseS.min) == protocol::kShortestLease &&
-              from_seconds(kLeaseS.max) == protocol::kLongestLease);
-constexpr Span kCosine{0.0, 1.0, ""};
-constexpr Span kRotationDeg{0.0, 180.0, "deg"};
-
-constexpr double kUnitTolerance = 1e-6;      // of the norm of a quaternion
 constexpr double kHarmonicTolerance = 1e-9;  // relative, of a rate against a multiple of the cycle's
 constexpr std::size_t kMaxNameBytes = 64;
 
@@ -67,56 +44,6 @@ class ParseErrors : public google::protobuf::io::ErrorCollector {
  private:
   Complaints& complaints_;
 };
-
-Eigen::Matrix3d read_inertia(const Located& inertia) {
-  const auto entry = [&](const char* field) { return inertia.number(field, kInertia, 0.0); };
-  const double xy = entry("xy");
-  const double xz = entry("xz");
-  const double yz = entry("yz");
-  Eigen::Matrix3d matrix;
-  matrix << entry("x"), xy, xz,  //
-      xy, entry("y"), yz,        //
-      xz, yz, entry("z");
-  const Eigen::Vector3d principal =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
-  const std::string moments =
-      "the principal moments are " + show(principal[0]) + ", " + show(principal[1]) + ", " + show(principal[2]);
-  if (principal[0] <= 0.0) {
-    inertia.complain(moments + "; all three have to be positive");
-  } else if (principal[0] + principal[1] < principal[2] * (1.0 - 1e-9)) {
-    inertia.complain(moments + "; no body has one that is greater than the sum of the other two: check the units");
-  }
-  return matrix;
-}
-
-Eigen::Quaterniond read_orientation(const Located& load) {
-  if (!load.has("orientation")) return Eigen::Quaterniond::Identity();
-  const Located node = load.child("orientation");
-  const auto component = [&](const char* field) { return node.number(field, kComponent, 0.0); };
-  const Eigen::Quaterniond q(component("w"), component("x"), component("y"), component("z"));
-  const double norm = q.norm();
-  if (std::abs(norm - 1.0) > kUnitTolerance) {
-    std::string cure = "give a unit quaternion (to " + show(kUnitTolerance) + ")";
-    if (norm > 0.0) {
-      cure += ", for instance w: " + show(q.w() / norm) + " x: " + show(q.x() / norm) + " y: " + show(q.y() / norm) +
-              " z: " + show(q.z() / norm);
-    }
-    node.complain("has norm " + show(norm) + "; " + cure);
-    return Eigen::Quaterniond::Identity();
-  }
-  return q.normalized();
-}
-
-mechanics::Load read_load(const Located& load) {
-  mechanics::Load out;
-  out.mass_kg = load.number("mass_kg", kMassKg);
-  const Located inertia =
-      load.required_child("inertia_kg_m2", "give inertia_kg_m2 { x: .. y: .. z: .. } in the body frame");
-  if (load.has("inertia_kg_m2")) out.inertia_b_kg_m2 = read_inertia(inertia);
-  out.position_w_m = load.vector("position_m", kPlaceM);
-  out.orientation_w_b = read_orientation(load);
-  return out;
-}
 
 /// The multiple of the cycle's rate that is closest to this ratio.
 Harmonic closest_harmonic(double ratio) {
@@ -178,6 +105,25 @@ LengthLaw read_law(const Located& carrier, double cycle_rate_rad_s) {
   return {};
 }
 
+mechanics::Vehicle read_vehicle(const Located& vehicle) {
+  mechanics::Vehicle out;
+  out.time_constant_s = vehicle.number("time_constant_s", kTimeConstantS, 0.0);
+  out.mass_kg = vehicle.optional_number("mass_kg", kMassKg);
+  out.thrust_max_n = vehicle.optional_number("thrust_max_n", kPositiveForceN);
+  const std::optional<double> bank_max_deg = vehicle.optional_number("bank_max_deg", kBankDeg);
+  if (bank_max_deg) out.bank_max_rad = radians(*bank_max_deg);
+  for (const char* limit : {"thrust_max_n", "bank_max_deg"}) {
+    if (!vehicle.has(limit) || vehicle.has("mass_kg")) continue;
+    vehicle.complain(limit, "cannot be judged without the vehicle's mass; give mass_kg");
+  }
+  return out;
+}
+
+mechanics::Winch read_winch(const Located& winch) {
+  return {winch.number("time_constant_s", kTimeConstantS, 0.0), winch.optional_number("rate_max_m_s", kSpeed),
+          winch.optional_number("acceleration_max_m_s2", kAcceleration)};
+}
+
 std::vector<mechanics::Carrier> read_carriers(const std::vector<Located>& nodes, double cycle_rate_rad_s) {
   std::vector<mechanics::Carrier> out;
   std::set<CarrierId> seen;
@@ -191,6 +137,8 @@ std::vector<mechanics::Carrier> read_carriers(const std::vector<Located>& nodes,
     (void)node.required_child("attachment_m", "give attachment_m { x: .. y: .. z: .. } in the body frame");
     carrier.attachment_b_m = node.vector("attachment_m", kPlaceM);
     carrier.law = read_law(node, cycle_rate_rad_s);
+    carrier.radius_m = node.number("radius_m", kLengthM, 0.0);
+    carrier.vehicle = read_vehicle(node.child("vehicle"));
     out.push_back(std::move(carrier));
   }
   return out;
@@ -221,6 +169,7 @@ mechanics::Limits read_limits(const Located& limits) {
   out.speed_max_m_s = limits.optional_number("speed_max_m_s", kSpeed);
   out.acceleration_max_m_s2 = limits.optional_number("acceleration_max_m_s2", kAcceleration);
   out.separation_min_m = limits.optional_number("separation_min_m", kLengthM);
+  out.clearance_min_m = limits.optional_number("clearance_min_m", kLengthM);
   out.vertical_cosine_min = limits.optional_number("vertical_cosine_min", kCosine);
 
   const auto judge_order = [&](const char* min_field, const std::optional<double>& min, const char* max_field,
@@ -243,6 +192,7 @@ mechanics::Plan read_plan(const Located& root) {
   plan.cable.stiffness_n_m = cable.number("stiffness_n_m", kStiffness, 1e4);
   plan.cable.damping_n_s_m = cable.number("damping_n_s_m", kDamping, 1e3);
   plan.cable.compensate_stretch = cable.flag("compensate_stretch", true);
+  plan.winch = read_winch(root.child("winch"));
   plan.limits = read_limits(root.child("limits"));
 
   const Located cycle = root.required_child("cycle", "a mission has cycle { rate_rad_s: .. edge { .. } .. }");
@@ -279,6 +229,7 @@ std::set<CarrierId> read_holds(const pb::Mission& message) {
 Simulation read_simulation(const Located& simulation) {
   Simulation out;
   out.carrier_time_constant_s = simulation.optional_number("carrier_time_constant_s", kTimeConstantS);
+  out.lag_error = simulation.number("lag_error", kLagError, 0.0);
   if (!simulation.has("wind")) return out;
   const Located node = simulation.child("wind");
   Wind wind;
@@ -319,9 +270,6 @@ Mission read_mission(const pb::Mission& message, const Located& root) {
   Mission mission;
   if (message.has_name()) mission.name = read_name(root, message.name());
   mission.plan = read_plan(root);
-  const Located winch = root.child("winch");
-  mission.winch.time_constant_s = winch.optional_number("time_constant_s", kTimeConstantS);
-  mission.winch.rate_max_m_s = winch.optional_number("rate_max_m_s", kSpeed);
   mission.simulation = read_simulation(root.child("simulation"));
   mission.holds = read_holds(message);
   if (mission.simulation.wind) mission.simulation.wind->seed = message.simulation().wind().seed();

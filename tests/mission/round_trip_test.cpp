@@ -22,6 +22,14 @@ Mission parsed(const std::string& text) {
   return std::move(result).value();
 }
 
+void expect_same_vehicle(const mechanics::Vehicle& a, const mechanics::Vehicle& b) {
+  EXPECT_EQ(a.mass_kg, b.mass_kg);
+  EXPECT_EQ(a.thrust_max_n, b.thrust_max_n);
+  ASSERT_EQ(a.bank_max_rad.has_value(), b.bank_max_rad.has_value());
+  EXPECT_NEAR(a.bank_max_rad.value_or(0.0), b.bank_max_rad.value_or(0.0), 1e-15);  // degrees in the file
+  EXPECT_EQ(a.time_constant_s, b.time_constant_s);
+}
+
 void expect_same_plan(const mechanics::Plan& a, const mechanics::Plan& b) {
   EXPECT_EQ(a.load.mass_kg, b.load.mass_kg);
   EXPECT_EQ(a.load.inertia_b_kg_m2, b.load.inertia_b_kg_m2);
@@ -37,6 +45,8 @@ void expect_same_plan(const mechanics::Plan& a, const mechanics::Plan& b) {
     EXPECT_EQ(a.carriers[i].attachment_b_m, b.carriers[i].attachment_b_m);
     const mechanics::LengthLaw& law_a = a.carriers[i].law;
     const mechanics::LengthLaw& law_b = b.carriers[i].law;
+    EXPECT_EQ(a.carriers[i].radius_m, b.carriers[i].radius_m);
+    expect_same_vehicle(a.carriers[i].vehicle, b.carriers[i].vehicle);
     EXPECT_EQ(law_a.kind, law_b.kind);
     EXPECT_LT((law_a.direction - law_b.direction).norm(), 1e-15);  // normalised again on reading
     EXPECT_EQ(law_a.profile.mean, law_b.profile.mean);
@@ -63,14 +73,21 @@ void expect_same_plan(const mechanics::Plan& a, const mechanics::Plan& b) {
   EXPECT_EQ(a.limits.speed_max_m_s, b.limits.speed_max_m_s);
   EXPECT_EQ(a.limits.acceleration_max_m_s2, b.limits.acceleration_max_m_s2);
   EXPECT_EQ(a.limits.separation_min_m, b.limits.separation_min_m);
+  EXPECT_EQ(a.limits.clearance_min_m, b.limits.clearance_min_m);
   EXPECT_EQ(a.limits.vertical_cosine_min, b.limits.vertical_cosine_min);
+  ASSERT_EQ(a.load.hull_b_m.size(), b.load.hull_b_m.size());
+  for (std::size_t i = 0; i < a.load.hull_b_m.size(); ++i) {
+    EXPECT_LT((a.load.hull_b_m[i] - b.load.hull_b_m[i]).norm(), 1e-15);  // a box is written by its edges and centre
+  }
+  EXPECT_EQ(a.winch.time_constant_s, b.winch.time_constant_s);
+  EXPECT_EQ(a.winch.rate_max_m_s, b.winch.rate_max_m_s);
+  EXPECT_EQ(a.winch.acceleration_max_m_s2, b.winch.acceleration_max_m_s2);
 }
 
 void expect_same(const Mission& a, const Mission& b) {
   EXPECT_EQ(a.name, b.name);
   expect_same_plan(a.plan, b.plan);
-  EXPECT_EQ(a.winch.time_constant_s, b.winch.time_constant_s);
-  EXPECT_EQ(a.winch.rate_max_m_s, b.winch.rate_max_m_s);
+  EXPECT_EQ(a.simulation.lag_error, b.simulation.lag_error);
   EXPECT_EQ(a.simulation.carrier_time_constant_s, b.simulation.carrier_time_constant_s);
   ASSERT_EQ(a.simulation.wind.has_value(), b.simulation.wind.has_value());
   if (a.simulation.wind) {
@@ -111,12 +128,20 @@ TEST(RoundTrip, SilenceInEveryForm) {
 }
 
 TEST(RoundTrip, VehiclesThatHoldAndVehiclesThatGoOn) {
-  std::string text = replaced(kGoodMission, "altitude_m: 14 }", "altitude_m: 14 } vehicle { on_silence: GO_ON }");
+  std::string text = replaced(kGoodMission, "mass_kg: 2.5", "mass_kg: 2.5 on_silence: GO_ON");
   text = replaced(text, "length_m: 11 }", "length_m: 11 } vehicle { on_silence: HOLD }");
   text = replaced(text, "phase_rad: 0.2 }", "phase_rad: 0.2 } vehicle {}");
   text = replaced(text, "mean_m: 12 }", "mean_m: 12 } vehicle { on_silence: HOLD }");
   const Mission mission = parsed(text);
   EXPECT_EQ(mission.holds, (std::set<CarrierId>{2, 4}));
+  expect_same(mission, parsed(mission::to_text(mission)));
+}
+
+TEST(RoundTrip, AHullThatIsNoBox) {
+  const std::string box = "box { x_m: 1.8 y_m: 1.7 z_m: 0.35 centre_m { z: 0.075 } }";
+  const Mission mission = parsed(replaced(
+      kGoodMission, box, "hull { vertex_m { x: 1 } vertex_m { y: 1 } vertex_m { x: -1 } vertex_m { z: 0.3 } }"));
+  EXPECT_EQ(mission.plan.load.hull_b_m.size(), 4u);
   expect_same(mission, parsed(mission::to_text(mission)));
 }
 
@@ -144,7 +169,17 @@ TEST(Reading, AllIsWhereTheFileSays) {
   EXPECT_EQ(plan.cycle.edges[2].phase_rad, 2.1);
   EXPECT_EQ(plan.limits.tension_max_n, 50.0);
   EXPECT_EQ(plan.limits.speed_min_m_s, std::nullopt);
-  EXPECT_EQ(mission.winch.rate_max_m_s, 2.0);
+  EXPECT_EQ(plan.winch.rate_max_m_s, 2.0);
+  EXPECT_EQ(plan.winch.acceleration_max_m_s2, 9.0);
+  EXPECT_EQ(plan.limits.clearance_min_m, 0.5);
+  EXPECT_EQ(plan.load.hull_b_m.front(), Eigen::Vector3d(-0.9, -0.85, -0.1));
+  EXPECT_EQ(plan.load.hull_b_m.back(), Eigen::Vector3d(0.9, 0.85, 0.25));
+  EXPECT_EQ(plan.carriers[0].radius_m, 0.4);
+  EXPECT_EQ(plan.carriers[0].vehicle.mass_kg, 2.5);
+  EXPECT_EQ(plan.carriers[0].vehicle.thrust_max_n, 80.0);
+  EXPECT_NEAR(plan.carriers[0].vehicle.bank_max_rad.value(), 0.610865, 1e-6);
+  EXPECT_EQ(plan.carriers[0].vehicle.time_constant_s, 0.15);
+  EXPECT_EQ(mission.simulation.lag_error, 0.2);
   EXPECT_EQ(mission.simulation.wind->force_w_n, Eigen::Vector3d(1, -2, 0));
   EXPECT_EQ(mission.simulation.wind->seed, 7u);
   EXPECT_EQ(mission.transition_duration_s, 20.0);
@@ -161,7 +196,12 @@ TEST(Reading, WhatAbsenceMeans) {
   EXPECT_EQ(mission.plan.cable.stiffness_n_m, 1e4);
   EXPECT_EQ(mission.plan.cable.damping_n_s_m, 1e3);
   EXPECT_TRUE(mission.plan.cable.compensate_stretch);
-  EXPECT_EQ(mission.winch.time_constant_s, std::nullopt);
+  EXPECT_EQ(mission.plan.winch.time_constant_s, 0.0);
+  EXPECT_EQ(mission.plan.winch.rate_max_m_s, std::nullopt);
+  EXPECT_TRUE(mission.plan.load.hull_b_m.empty());
+  EXPECT_EQ(mission.plan.carriers[0].radius_m, 0.0);
+  EXPECT_EQ(mission.plan.carriers[0].vehicle.mass_kg, std::nullopt);
+  EXPECT_EQ(mission.simulation.lag_error, 0.0);
   EXPECT_EQ(mission.simulation.carrier_time_constant_s, std::nullopt);
   EXPECT_FALSE(mission.simulation.wind);
   EXPECT_TRUE(mission.holds.empty());

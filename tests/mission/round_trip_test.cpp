@@ -172,8 +172,8 @@ TEST(Reading, AllIsWhereTheFileSays) {
   EXPECT_EQ(plan.winch.rate_max_m_s, 2.0);
   EXPECT_EQ(plan.winch.acceleration_max_m_s2, 9.0);
   EXPECT_EQ(plan.limits.clearance_min_m, 0.5);
-  EXPECT_EQ(plan.load.hull_b_m.front(), Eigen::Vector3d(-0.9, -0.85, -0.1));
-  EXPECT_EQ(plan.load.hull_b_m.back(), Eigen::Vector3d(0.9, 0.85, 0.25));
+  EXPECT_LT((plan.load.hull_b_m.front() - Eigen::Vector3d(-0.9, -0.85, -0.1)).norm(), 1e-15);
+  EXPECT_LT((plan.load.hull_b_m.back() - Eigen::Vector3d(0.9, 0.85, 0.25)).norm(), 1e-15);
   EXPECT_EQ(plan.carriers[0].radius_m, 0.4);
   EXPECT_EQ(plan.carriers[0].vehicle.mass_kg, 2.5);
   EXPECT_EQ(plan.carriers[0].vehicle.thrust_max_n, 80.0);

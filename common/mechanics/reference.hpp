@@ -52,29 +52,38 @@ template <class S>
   return {S(mean + sine), S(rate_rad_s * cosine), S(-(rate_rad_s * rate_rad_s) * sine)};
 }
 
+/// From the internal forces along both edges.
 template <class S>
-[[nodiscard]] inline TaylorVector<S> force(const CarrierSlice& c, const S& t_s) {
-  // lambda_j = offset_j + amplitude_j sin(theta + phase_j)
-  const auto lambda_in =
-      oscillation(c.incoming.offset_n, c.incoming.amplitude_n, c.rate_rad_s, c.incoming.phase_rad, t_s);
-  const auto lambda_out =
-      oscillation(c.outgoing.offset_n, c.outgoing.amplitude_n, c.rate_rad_s, c.outgoing.phase_rad, t_s);
+[[nodiscard]] inline TaylorVector<S> force(const CarrierSlice& c, const Taylor<S>& lambda_in,
+                                           const Taylor<S>& lambda_out) {
   // f_i = f0_i + lambda_in delta_i + lambda_out deltabar_i
   return constant_vector<S>(c.particular_force_w_n) + lambda_in * c.incoming.direction +
          lambda_out * c.outgoing.direction;
 }
 
-/// The law's length for a cable that points along q; q need not be the plan's own direction (transition.hpp).
+template <class S>
+[[nodiscard]] inline TaylorVector<S> force(const CarrierSlice& c, const S& t_s) {
+  // lambda_j = offset_j + amplitude_j sin(theta + phase_j)
+  return force(c, oscillation(c.incoming.offset_n, c.incoming.amplitude_n, c.rate_rad_s, c.incoming.phase_rad, t_s),
+               oscillation(c.outgoing.offset_n, c.outgoing.amplitude_n, c.rate_rad_s, c.outgoing.phase_rad, t_s));
+}
+
+/// The law's length for a cable that points along q; `profile` is its s*(t) or l*(t).
+template <class S>
+[[nodiscard]] inline Taylor<S> length(const CarrierSlice& c, const TaylorVector<S>& q, const Taylor<S>& profile) {
+  if (!c.law.is_projection()) return profile;
+  // l = (s*(t) − u·B) / (u·q)
+  return (profile - constant(S(c.law.direction.dot(c.attachment_w_m)))) / dot(c.law.direction, q);
+}
+
+/// At time t; q need not be the plan's own direction (transition.hpp).
 template <class S>
 [[nodiscard]] inline Taylor<S> length(const CarrierSlice& c, const TaylorVector<S>& q, const S& t_s) {
   const Oscillation& profile = c.law.profile;
-  const Taylor<S> target =
-      profile.constant()
-          ? constant(S(profile.mean))
-          : oscillation(profile.mean, profile.swing, c.rate_rad_s * profile.harmonic.ratio(), profile.phase_rad, t_s);
-  if (!c.law.is_projection()) return target;
-  // l = (s*(t) − u·B) / (u·q)
-  return (target - constant(S(c.law.direction.dot(c.attachment_w_m)))) / dot(c.law.direction, q);
+  return length(c, q,
+                profile.constant() ? constant(S(profile.mean))
+                                   : oscillation(profile.mean, profile.swing, c.rate_rad_s * profile.harmonic.ratio(),
+                                                 profile.phase_rad, t_s));
 }
 
 /// What follows from a force and a length: direction, tension, position.

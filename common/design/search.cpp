@@ -1,0 +1,256 @@
+#include "common/design/search.hpp"
+
+#include <nlopt.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace gyre::design {
+namespace {
+
+using Vector = Eigen::VectorXd;
+using Gradients = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr int kRounds = 12;
+constexpr int kSteps = 120;              // of one round
+constexpr double kNear = 0.3;            // rows with more than this to spare are left out
+constexpr std::size_t kMostRows = 1600;  // of one round
+constexpr double kEnough = 1e-6;         // of the cost, relative: not worth another round
+
+enum class Goal { kMeet, kImprove, kRaise };
+
+/// One round: the rows that are looked at, and what NLopt is told of them.
+class Round {
+ public:
+  Round(const Search& search, Goal goal, SampledMotion& motion, const Judge& judge, std::vector<Judged> rows)
+      : search_(search), goal_(goal), motion_(motion), judge_(judge), rows_(std::move(rows)) {
+    // The limit of a raised demand is a variable: its rows count in any case.
+    if (rows_.size() > kMostRows) {
+      std::nth_element(rows_.begin(), rows_.begin() + kMostRows, rows_.end(),
+                       [](const Judged& a, const Judged& b) { return a.residual > b.residual; });
+      rows_.resize(kMostRows);
+    }
+  }
+
+  /// (x, t) after the round, from (x, t).
+  Vector run(const Vector& start, double least_t, double most_t) {
+    const auto n = static_cast<unsigned>(start.size());
+    const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> opt(nlopt_create(NLOPT_LD_SLSQP, n), nlopt_destroy);
+    opt_ = opt.get();
+    Vector lower(n);
+    Vector upper(n);
+    const Eigen::Index own = search_.unknowns.start.size();
+    lower.head(own) = search_.unknowns.lower;
+    upper.head(own) = search_.unknowns.upper;
+    if (goal_ != Goal::kImprove) {
+      lower[own] = least_t;
+      upper[own] = most_t;
+    }
+    nlopt_set_lower_bounds(opt_, lower.data());
+    nlopt_set_upper_bounds(opt_, upper.data());
+    nlopt_set_min_objective(opt_, &Round::cost, this);
+    const std::vector<double> tolerances(rows_.size(), 0.1 * search_.margin);
+    nlopt_add_inequality_mconstraint(opt_, static_cast<unsigned>(rows_.size()), &Round::constraints, this,
+                                     tolerances.data());
+    nlopt_set_maxeval(opt_, kSteps);
+    nlopt_set_xtol_rel(opt_, 1e-8);
+    nlopt_set_ftol_rel(opt_, 1e-8);
+    Vector x = start.cwiseMax(lower).cwiseMin(upper);
+    double least = 0.0;
+    (void)nlopt_optimize(opt_, x.data(), &least);  // whatever it says, x is judged by who asked
+    opt_ = nullptr;
+    return x;
+  }
+
+ private:
+  static double cost(unsigned n, const double* x, double* gradient, void* round) {
+    auto& self = *static_cast<Round*>(round);
+    const Eigen::Map<const Vector> at(x, n);
+    if (self.search_.keep_going && !self.search_.keep_going()) nlopt_force_stop(self.opt_);
+    Vector slope = Vector::Zero(n);
+    double value = 0.0;
+    if (self.goal_ == Goal::kImprove) {
+      self.evaluate(at);
+      value = effort(self.search_.objective, self.motion_, self.search_.scales, self.search_.gravity_m_s2, slope);
+    } else {
+      const double sign = self.goal_ == Goal::kMeet ? 1.0 : -1.0;
+      value = sign * at[n - 1];
+      slope[n - 1] = sign;
+    }
+    if (gradient != nullptr) Eigen::Map<Vector>(gradient, n) = slope;
+    return value;
+  }
+
+  static void constraints(unsigned m, double* result, unsigned n, const double* x, double* gradient, void* round) {
+    auto& self = *static_cast<Round*>(round);
+    const Eigen::Map<const Vector> at(x, n);
+    self.evaluate(at);
+    const Eigen::Index own = self.search_.unknowns.start.size();
+    Vector slope(own);
+    for (unsigned k = 0; k < m; ++k) {
+      const Row& row = self.rows_[k].row;
+      result[k] = self.judge_.residual(row, at.head(own), slope);
+      double by_t = 0.0;
+      if (self.goal_ == Goal::kMeet) {
+        by_t = -1.0;
+        result[k] -= at[own];
+      } else if (self.goal_ == Goal::kRaise && row.demand == *self.search_.raised) {
+        // r = (L − F) / S with L = t S in the limit's place; no margin: the limit is what is looked for.
+        const Demand& demand = self.search_.demands[row.demand];
+        by_t = 1.0;
+        result[k] += at[own] - demand.limit / demand.scale;
+      } else {
+        result[k] += self.search_.margin;
+      }
+      if (gradient == nullptr) continue;
+      Eigen::Map<Vector> out(gradient + static_cast<std::size_t>(k) * n, n);
+      out.head(own) = slope;
+      if (n > static_cast<unsigned>(own)) out[own] = by_t;
+    }
+  }
+
+  void evaluate(const Eigen::Map<const Vector>& at) {
+    const Vector x = at.head(search_.unknowns.start.size());
+    if (evaluated_.size() == x.size() && evaluated_ == x) return;
+    motion_.evaluate(x);
+    evaluated_ = x;
+  }
+
+  const Search& search_;
+  Goal goal_;
+  SampledMotion& motion_;
+  const Judge& judge_;
+  std::vector<Judged> rows_;
+  Vector evaluated_;
+  nlopt_opt opt_ = nullptr;
+};
+
+/// A motion, its judge, and what a point is worth.
+class Bench {
+ public:
+  explicit Bench(const Search& search)
+      : search_(search),
+        motion_(*search.plan, search.unknowns, search.samples),
+        judge_(*search.plan, search.unknowns, search.demands, motion_) {}
+
+  Point look(const Vector& x) {
+    Point out;
+    out.x = x;
+    motion_.evaluate(x);
+    judge_.choose_sides();
+    const Judge::Findings findings = judge_.find(x, std::numeric_limits<double>::infinity());
+    out.worst = findings.worst;
+    if (search_.raised) {
+      out.cost = -raised_figure(x);
+    } else {
+      Vector slope(x.size());
+      out.cost = effort(search_.objective, motion_, search_.scales, search_.gravity_m_s2, slope);
+    }
+    return out;
+  }
+
+  Vector round(Goal goal, const Vector& x, double least_residual) {
+    motion_.evaluate(x);
+    judge_.choose_sides();
+    Judge::Findings findings = judge_.find(x, least_residual);
+    Vector start = x;
+    double least_t = 0.0;
+    double most_t = 0.0;
+    if (goal != Goal::kImprove) {
+      start.conservativeResize(x.size() + 1);
+      if (goal == Goal::kMeet) {
+        start[x.size()] = findings.worst;
+        least_t = -4.0 * search_.margin - 0.01;
+        most_t = std::max(1.0, 2.0 * findings.worst);
+      } else {
+        const Demand& demand = search_.demands[*search_.raised];
+        start[x.size()] = raised_figure(x) / demand.scale;
+        least_t = demand.limit / demand.scale;
+        most_t = 1e3 * std::max(1.0, start[x.size()]);
+        add_raised(x, start[x.size()], findings.rows);
+      }
+    }
+    Round round(search_, goal, motion_, judge_, std::move(findings.rows));
+    return round.run(start, least_t, most_t).head(x.size());
+  }
+
+ private:
+  /// The least figure of the raised demand.
+  double raised_figure(const Vector& x) {
+    const Demand& demand = search_.demands[*search_.raised];
+    double worst = -std::numeric_limits<double>::infinity();
+    for (const Judged& judged : judge_.find(x, -std::numeric_limits<double>::infinity()).rows) {
+      if (judged.row.demand == *search_.raised) worst = std::max(worst, judged.residual);
+    }
+    return demand.limit - worst * demand.scale;
+  }
+
+  /// Its rows that are near the least figure, and not among those near the limit.
+  void add_raised(const Vector& x, double at, std::vector<Judged>& rows) {
+    const Demand& demand = search_.demands[*search_.raised];
+    rows.erase(std::remove_if(rows.begin(), rows.end(),
+                              [&](const Judged& judged) { return judged.row.demand == *search_.raised; }),
+               rows.end());
+    for (const Judged& judged : judge_.find(x, -std::numeric_limits<double>::infinity()).rows) {
+      if (judged.row.demand != *search_.raised) continue;
+      const double figure = demand.limit / demand.scale - judged.residual;
+      if (figure < at + kNear * std::max(1.0, std::abs(at))) rows.push_back({judged.row, at - figure});
+    }
+  }
+
+  const Search& search_;
+  SampledMotion motion_;
+  Judge judge_;
+};
+
+bool met(const Search& search, const Point& point) {
+  return point.worst <= -0.5 * search.margin;
+}
+
+bool going(const Search& search) {
+  return !search.keep_going || search.keep_going();
+}
+
+}  // namespace
+
+Point look(const Search& search, const Vector& x) {
+  return Bench(search).look(x);
+}
+
+Point meet(const Search& search, const Vector& x, int rounds) {
+  Bench bench(search);
+  Point best = bench.look(x.cwiseMax(search.unknowns.lower).cwiseMin(search.unknowns.upper));
+  for (int round = 0; round < rounds && !met(search, best) && going(search); ++round) {
+    const double least = best.worst - 0.5 - 0.5 * std::abs(best.worst);
+    const Point next = bench.look(bench.round(Goal::kMeet, best.x, std::isfinite(least) ? least : -kNear));
+    const bool hopeless = !(next.worst < best.worst - 1e-3 * std::max(1.0, std::abs(best.worst)));
+    if (next.worst < best.worst) best = next;
+    if (hopeless) break;
+  }
+  return best;
+}
+
+Point improve(const Search& search, const Point& from) {
+  Bench bench(search);
+  const Goal goal = search.raised ? Goal::kRaise : Goal::kImprove;
+  Point best = from;
+  Point at = from;
+  for (int round = 0; round < kRounds && going(search); ++round) {
+    Point next = bench.look(bench.round(goal, at.x, -kNear));
+    if (!met(search, next)) {  // rows that were left out: they are near now
+      at = next;
+      if (round % 3 == 2) {
+        at = meet(search, next.x, 2);
+        if (met(search, at) && at.cost < best.cost) best = at;
+      }
+      continue;
+    }
+    const bool enough = next.cost > best.cost - kEnough * std::max(1e-3, std::abs(best.cost));
+    if (next.cost < best.cost) best = next;
+    if (enough) break;
+    at = best;
+  }
+  return best;
+}
+
+}  // namespace gyre::design

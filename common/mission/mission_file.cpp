@@ -4,10 +4,12 @@
 #include <fstream>
 
 #include "common/mission/mission.hpp"
+#include "common/mission/requirements.hpp"
 
 namespace gyre::mission {
+namespace {
 
-Result<Mission> read_mission_file(const std::string& path) {
+Result<std::string> read_text(const std::string& path) {
   std::error_code failure;
   const std::filesystem::file_status status = std::filesystem::status(path, failure);
   if (!std::filesystem::exists(status)) {
@@ -23,7 +25,21 @@ Result<Mission> read_mission_file(const std::string& path) {
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (file.bad()) return Error{path + ": cannot be read: " + std::strerror(errno)};
   text.resize(static_cast<std::size_t>(file.gcount()));
-  return parse_mission(text, path);
+  return text;
+}
+
+}  // namespace
+
+Result<Mission> read_mission_file(const std::string& path) {
+  const Result<std::string> text = read_text(path);
+  if (!text) return text.error();
+  return parse_mission(text.value(), path);
+}
+
+Result<Requirements> read_requirements_file(const std::string& path) {
+  const Result<std::string> text = read_text(path);
+  if (!text) return text.error();
+  return parse_requirements(text.value(), path);
 }
 
 }  // namespace gyre::mission

@@ -11,9 +11,11 @@
 #include "common/mission/located.hpp"
 #include "common/mission/mission.hpp"
 #include "common/mission/nesting.hpp"
+#include "common/mission/requirements.hpp"
 #include "common/mission/schema_complaint.hpp"
 #include "common/mission/spans.hpp"
 #include "common/mission/topology.hpp"
+#include "common/mission/want_reader.hpp"
 #include "idl/mission.pb.h"
 
 namespace gyre::mission {
@@ -73,22 +75,47 @@ Harmonic read_harmonic(const Located& law, double cycle_rate_rad_s) {
   return harmonic;
 }
 
-Oscillation read_oscillation(const Located& law, const Span& mean, std::optional<double> absent_swing,
-                             double cycle_rate_rad_s) {
+/// A number that requirements may leave out: then it is open, and 0 until it is chosen.
+double number_or_open(const Located& node, const char* field, const Span& span, bool may_be_open, bool& open,
+                      std::optional<double> absent = std::nullopt) {
+  open = may_be_open && !node.has(field);
+  return open ? 0.0 : node.number(field, span, absent);
+}
+
+/// What belongs to every number of a plan: whether a file may leave it out, and the cycle's rate.
+struct Reading {
+  bool may_be_open;
+  double cycle_rate_rad_s;
+};
+
+Oscillation read_length(const Located& law, const Reading& reading, design::OpenLaw& open) {
   Oscillation out;
-  out.mean = law.number("mean_m", mean);
-  out.swing = law.number("swing_m", kPlaceM, absent_swing);
-  out.harmonic = read_harmonic(law, cycle_rate_rad_s);
+  out.mean = number_or_open(law, "mean_m", kLengthM, reading.may_be_open, open.mean);
+  out.swing = number_or_open(law, "swing_m", kPlaceM, reading.may_be_open, open.swing);
+  out.harmonic = read_harmonic(law, reading.cycle_rate_rad_s);
+  out.phase_rad = number_or_open(law, "phase_rad", kPhaseRad, reading.may_be_open, open.phase, 0.0);
+  return out;
+}
+
+Oscillation read_profile(const Located& law, const Reading& reading, design::OpenLaw& open) {
+  Oscillation out;
+  out.mean = number_or_open(law, "mean_m", kPlaceM, reading.may_be_open, open.mean);
+  out.swing = law.number("swing_m", kPlaceM, 0.0);
+  out.harmonic = read_harmonic(law, reading.cycle_rate_rad_s);
   out.phase_rad = law.number("phase_rad", kPhaseRad, 0.0);
   return out;
 }
 
-LengthLaw read_law(const Located& carrier, double cycle_rate_rad_s) {
-  if (carrier.has("level")) return LengthLaw::level(carrier.child("level").number("altitude_m", kPlaceM));
-  if (carrier.has("fixed")) return LengthLaw::fixed(carrier.child("fixed").number("length_m", kLengthM));
-  if (carrier.has("sine")) {
-    return LengthLaw::sine(read_oscillation(carrier.child("sine"), kLengthM, std::nullopt, cycle_rate_rad_s));
+LengthLaw read_law(const Located& carrier, const Reading& reading, design::OpenLaw& open) {
+  if (carrier.has("level")) {
+    return LengthLaw::level(
+        number_or_open(carrier.child("level"), "altitude_m", kPlaceM, reading.may_be_open, open.mean));
   }
+  if (carrier.has("fixed")) {
+    return LengthLaw::fixed(
+        number_or_open(carrier.child("fixed"), "length_m", kLengthM, reading.may_be_open, open.mean));
+  }
+  if (carrier.has("sine")) return LengthLaw::sine(read_length(carrier.child("sine"), reading, open));
   if (carrier.has("directional")) {
     const Located law = carrier.child("directional");
     Eigen::Vector3d direction = law.vector("direction", kComponent);
@@ -97,8 +124,10 @@ LengthLaw read_law(const Located& carrier, double cycle_rate_rad_s) {
                    "has no length; give the direction the profile runs along, for instance { x: 0 y: 0 z: 1 }");
       direction = Eigen::Vector3d::UnitZ();
     }
-    return LengthLaw::directional(direction, read_oscillation(law, kPlaceM, 0.0, cycle_rate_rad_s));
+    return LengthLaw::directional(direction, read_profile(law, reading, open));
   }
+  open.kind = reading.may_be_open;
+  if (open.kind) return {};
   carrier.complain(
       "has no length law; give one of level { altitude_m }, directional { direction mean_m .. }, "
       "sine { mean_m swing_m .. }, fixed { length_m }");
@@ -124,7 +153,8 @@ mechanics::Winch read_winch(const Located& winch) {
           winch.optional_number("acceleration_max_m_s2", kAcceleration)};
 }
 
-std::vector<mechanics::Carrier> read_carriers(const std::vector<Located>& nodes, double cycle_rate_rad_s) {
+std::vector<mechanics::Carrier> read_carriers(const std::vector<Located>& nodes, const Reading& reading,
+                                              std::vector<design::OpenLaw>& open) {
   std::vector<mechanics::Carrier> out;
   std::set<CarrierId> seen;
   for (const Located& node : nodes) {
@@ -136,7 +166,7 @@ std::vector<mechanics::Carrier> read_carriers(const std::vector<Located>& nodes,
     }
     (void)node.required_child("attachment_m", "give attachment_m { x: .. y: .. z: .. } in the body frame");
     carrier.attachment_b_m = node.vector("attachment_m", kPlaceM);
-    carrier.law = read_law(node, cycle_rate_rad_s);
+    carrier.law = read_law(node, reading, open.emplace_back());
     carrier.radius_m = node.number("radius_m", kLengthM, 0.0);
     carrier.vehicle = read_vehicle(node.child("vehicle"));
     out.push_back(std::move(carrier));
@@ -144,15 +174,17 @@ std::vector<mechanics::Carrier> read_carriers(const std::vector<Located>& nodes,
   return out;
 }
 
-std::vector<mechanics::Edge> read_edges(const std::vector<Located>& nodes) {
+std::vector<mechanics::Edge> read_edges(const std::vector<Located>& nodes, bool may_be_open,
+                                        std::vector<design::OpenEdge>& open) {
   std::vector<mechanics::Edge> out;
   for (const Located& node : nodes) {
     mechanics::Edge edge;
     edge.from = node.whole_number("from", 1, kMaxCarrierId);
     edge.to = node.whole_number("to", 1, kMaxCarrierId);
-    edge.offset_n = node.number("offset_n", kForceN, 0.0);
-    edge.amplitude_n = node.number("amplitude_n", kForceN);
-    edge.phase_rad = node.number("phase_rad", kPhaseRad);
+    design::OpenEdge& gaps = open.emplace_back();
+    edge.offset_n = number_or_open(node, "offset_n", kForceN, may_be_open, gaps.offset, 0.0);
+    edge.amplitude_n = number_or_open(node, "amplitude_n", kForceN, may_be_open, gaps.amplitude);
+    edge.phase_rad = number_or_open(node, "phase_rad", kPhaseRad, may_be_open, gaps.phase);
     out.push_back(edge);
   }
   return out;
@@ -184,7 +216,18 @@ mechanics::Limits read_limits(const Located& limits) {
   return out;
 }
 
-mechanics::Plan read_plan(const Located& root) {
+bool too_many(const Located& place, const char* field) {
+  if (place.count(field) <= static_cast<int>(kMaxCarrierId)) return false;
+  place.complain(field, "there are " + std::to_string(place.count(field)) + "; a mission has at most " +
+                            std::to_string(kMaxCarrierId));
+  return true;
+}
+
+/// `gaps`: what is open, of requirements; null for a mission, in which nothing is.
+mechanics::Plan read_plan(const Located& root, design::Open* gaps) {
+  const bool may_be_open = gaps != nullptr;
+  design::Open none;
+  design::Open& open = may_be_open ? *gaps : none;
   mechanics::Plan plan;
   plan.load = read_load(root.required_child("load", "a mission has load { mass_kg: .. inertia_kg_m2 { .. } .. }"));
   plan.gravity_m_s2 = root.number("gravity_m_s2", kGravity, plan.gravity_m_s2);
@@ -195,25 +238,23 @@ mechanics::Plan read_plan(const Located& root) {
   plan.winch = read_winch(root.child("winch"));
   plan.limits = read_limits(root.child("limits"));
 
-  const Located cycle = root.required_child("cycle", "a mission has cycle { rate_rad_s: .. edge { .. } .. }");
-  plan.cycle.rate_rad_s = root.has("cycle") ? cycle.number("rate_rad_s", kRate) : 1.0;
-
-  const auto too_many = [](const Located& place, const char* field) {
-    if (place.count(field) <= static_cast<int>(kMaxCarrierId)) return false;
-    place.complain(field, "there are " + std::to_string(place.count(field)) + "; a mission has at most " +
-                              std::to_string(kMaxCarrierId));
-    return true;
-  };
+  const Located cycle = may_be_open
+                            ? root.child("cycle")
+                            : root.required_child("cycle", "a mission has cycle { rate_rad_s: .. edge { .. } .. }");
+  plan.cycle.rate_rad_s =
+      root.has("cycle") || may_be_open ? number_or_open(cycle, "rate_rad_s", kRate, may_be_open, open.rate) : 1.0;
   if (too_many(root, "carrier") || too_many(cycle, "edge")) return plan;
   if (root.count("carrier") == 0) {
     root.complain("carrier", "is missing; a mission has at least one carrier { id: .. attachment_m { .. } .. }");
     return plan;
   }
   const bool rate_known = cycle.sound("rate_rad_s", kRate);
-  plan.carriers = read_carriers(root.children("carrier"), rate_known ? plan.cycle.rate_rad_s : kUnknownRate);
-  if (!root.has("cycle")) return plan;
+  plan.carriers = read_carriers(root.children("carrier"),
+                                {may_be_open, rate_known ? plan.cycle.rate_rad_s : kUnknownRate}, open.laws);
   const std::vector<Located> edges = cycle.children("edge");
-  plan.cycle.edges = read_edges(edges);
+  open.order = may_be_open && edges.empty();
+  if (!root.has("cycle") || open.order) return plan;
+  plan.cycle.edges = read_edges(edges, may_be_open, open.edges);
   judge_cycle(plan, {cycle, edges});
   return plan;
 }
@@ -266,10 +307,10 @@ protocol::Silence read_silence(const pb::Mission& message, const Located& root) 
 }
 
 /// Judges every field, so that all complaints come at once; the mission is worth nothing if there are any.
-Mission read_mission(const pb::Mission& message, const Located& root) {
+Mission read_mission(const pb::Mission& message, const Located& root, design::Open* gaps) {
   Mission mission;
   if (message.has_name()) mission.name = read_name(root, message.name());
-  mission.plan = read_plan(root);
+  mission.plan = read_plan(root, gaps);
   mission.simulation = read_simulation(root.child("simulation"));
   mission.holds = read_holds(message);
   if (mission.simulation.wind) mission.simulation.wind->seed = message.simulation().wind().seed();
@@ -280,6 +321,20 @@ Mission read_mission(const pb::Mission& message, const Located& root) {
   tolerance.displacement_max_m = limits.number("load_displacement_max_m", kLengthM, tolerance.displacement_max_m);
   tolerance.rotation_max_deg = limits.number("load_rotation_max_deg", kRotationDeg, tolerance.rotation_max_deg);
   return mission;
+}
+
+design::Objective objective_of(pb::Want::Objective objective) {
+  switch (objective) {
+    case pb::Want::LEAST_EVERYTHING:
+      break;
+    case pb::Want::GREATEST_SPEED:
+      return design::Objective::kGreatestSpeed;
+    case pb::Want::LEAST_WINCH_WORK:
+      return design::Objective::kLeastWinchWork;
+    case pb::Want::GREATEST_CLEARANCE:
+      return design::Objective::kGreatestClearance;
+  }
+  return design::Objective::kLeastEverything;
 }
 
 /// What no parser needs to look at.
@@ -294,9 +349,10 @@ const char* unreadable(const std::string& text) {
   return nullptr;
 }
 
-}  // namespace
-
-Result<Mission> parse_mission(const std::string& text, const std::string& source_name) {
+/// Parses a text, and has it read and judged.
+template <class Read>
+auto parse(const std::string& text, const std::string& source_name, const Read& read)
+    -> Result<decltype(read(pb::Mission(), std::declval<const Located&>()))> {
   Complaints complaints(source_name);
   if (const char* why = unreadable(text)) {
     complaints.add(-1, -1, "", why);
@@ -319,9 +375,35 @@ Result<Mission> parse_mission(const std::string& text, const std::string& source
     if (complaints.none()) complaints.add(-1, -1, "", "is not a mission in Protobuf text format");
     return complaints.error();
   }
-  Mission mission = read_mission(message, Located(message, locations, complaints));
+  auto out = read(message, Located(message, locations, complaints));
   if (!complaints.none()) return complaints.error();
-  return mission;
+  return out;
+}
+
+}  // namespace
+
+Result<Mission> parse_mission(const std::string& text, const std::string& source_name) {
+  return parse(text, source_name, [](const pb::Mission& message, const Located& root) {
+    if (message.has_want()) {
+      root.complain("want",
+                    "is of requirements, which are no mission yet; make one of them by gyre design, or leave it out");
+    }
+    return read_mission(message, root, nullptr);
+  });
+}
+
+Result<Requirements> parse_requirements(const std::string& text, const std::string& source_name) {
+  return parse(text, source_name, [](const pb::Mission& message, const Located& root) {
+    Requirements out;
+    out.mission = read_mission(message, root, &out.open);
+    const Located want = root.required_child(
+        "want", "requirements have want { speed_min_m_s: .. }; what has all its numbers is a mission: gyre check");
+    if (!message.has_want()) return out;
+    out.want = read_want(want, out.mission.plan);
+    out.want.objective = objective_of(message.want().objective());
+    judge_want(want, out.want, out.open, out.mission.plan);
+    return out;
+  });
 }
 
 }  // namespace gyre::mission

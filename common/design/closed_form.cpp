@@ -79,15 +79,6 @@ Order angular(const Plan& plan) {
   return out;
 }
 
-Order given_order(const Plan& plan) {
-  Order out;
-  for (const Edge& edge : plan.cycle.edges) out.push_back(edge.from);
-  if (plan.cycle.edges.size() == 1) out.push_back(plan.cycle.edges.front().to);
-  if (out.empty())
-    for (const mechanics::Carrier& carrier : plan.carriers) out.push_back(carrier.id);
-  return out;
-}
-
 /// How high above `ground` a carrier flies at first.
 double first_height(const Requirements& requirements, const Scales& scales, const Bounds& bounds, double ground) {
   const mechanics::Limits& limits = requirements.given.limits;
@@ -134,10 +125,19 @@ Bounds bounds_of(const Requirements& requirements, const Scales& scales) {
           reach};
 }
 
+Order order_of(const Plan& plan) {
+  Order out;
+  for (const Edge& edge : plan.cycle.edges) out.push_back(edge.from);
+  if (plan.cycle.edges.size() == 1) out.push_back(plan.cycle.edges.front().to);
+  if (out.empty())
+    for (const mechanics::Carrier& carrier : plan.carriers) out.push_back(carrier.id);
+  return out;
+}
+
 std::vector<Order> orders_of(const Requirements& requirements, std::uint64_t seed) {
   const Plan& plan = requirements.given;
   const std::size_t n = plan.carriers.size();
-  if (!requirements.open.order || n < 3) return {given_order(plan)};
+  if (!requirements.open.order || n < 3) return {order_of(plan)};
   const Order around = angular(plan);
   std::vector<Order> candidates{around};
   for (std::size_t step = 2; 2 * step < n; ++step) {  // stars, where one stroke visits all
@@ -185,11 +185,9 @@ Start start_of(const Requirements& requirements, const Order& order, const Scale
   double top = -std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& arm : arms) top = std::max(top, plan.load.position_w_m.z() + arm.z());
   const double height = first_height(requirements, scales, bounds, top);
-  double radius =
-      std::max(kSteepness * height,
-               scales.speed_m_s * scales.speed_m_s /
-                   (kTurnAcceleration *
-                    std::min(plan.gravity_m_s2, plan.limits.acceleration_max_m_s2.value_or(plan.gravity_m_s2))));
+  const double turning =
+      kTurnAcceleration * std::min(plan.gravity_m_s2, plan.limits.acceleration_max_m_s2.value_or(plan.gravity_m_s2));
+  double radius = std::clamp(scales.speed_m_s * scales.speed_m_s / turning, kSteepness * height, height);
   if (out.open.rate) {
     plan.cycle.rate_rad_s = std::clamp(scales.speed_m_s / radius, bounds.rate_min_rad_s, bounds.rate_max_rad_s);
   } else if (plan.limits.speed_min_m_s && requirements.want.objective != Objective::kGreatestSpeed) {

@@ -29,6 +29,9 @@ namespace gyre::design {
 /// Ids in order of travel.
 using Order = std::vector<CarrierId>;
 
+/// That of a plan's edges; of a plan without, that of its carriers.
+[[nodiscard]] Order order_of(const mechanics::Plan& plan);
+
 /// The one order that is given; or, of an open one, all of them up to six carriers, else the angular one, its stars,
 /// and some drawn from the seed. Only such as let every carrier turn: neighbouring edges are not parallel.
 [[nodiscard]] std::vector<Order> orders_of(const Requirements& requirements, std::uint64_t seed);

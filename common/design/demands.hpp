@@ -9,13 +9,7 @@
 //
 // Everything that the certificate judges is among the demands, and what it takes for granted, too: tension, lengths
 // and cosines that keep away from 0. Clearance is the certificate's (docs/design.md, fact 8): how far a carrier may
-// stray before its cable touches another. That two cables are not wound around each other no distance tells, since
-// cables can pass through each other between two samples. Each pair has a side for that, a horizontal direction u:
-//
-//   u · (y_j − y_i) >= least      y: where the cables are at the height of the lower carrier
-//
-// At the attachments, and so all along the cables, carrier j is on that side of carrier i, at every sample. The curve
-// of y_j − y_i is an ellipse or nearly so, which either encloses 0, and then the cables braid, or has such a side.
+// stray before its cable touches another.
 
 #include <optional>
 #include <string>
@@ -25,7 +19,13 @@
 
 namespace gyre::design {
 
-enum class Kind { kCarrier, kSeparation, kClearance, kSide, kAmplitudeMost, kAmplitudeGiven };
+enum class Kind { kCarrier, kSeparation, kClearance, kSide, kAmplitude };
+
+enum class Origin {
+  kAsked,      ///< a limit of the file
+  kAlways,     ///< what the certificate judges anyway
+  kNecessary,  ///< what a motion needs to be one
+};
 
 struct Demand {
   Kind kind = Kind::kCarrier;
@@ -33,9 +33,10 @@ struct Demand {
   bool least = false;              ///< the limit is a least one
   double limit = 0.0;
   double scale = 1.0;
-  int carrier = -1;  ///< one alone; -1: all
-  std::string name;  ///< as the file has it, "speed_min_m_s"; empty: nobody asked for it, it has to be
+  int who = -1;      ///< one carrier or edge alone; -1: all
+  std::string name;  ///< as the file has it, "speed_min_m_s"
   const char* unit = "";
+  Origin origin = Origin::kAsked;
 
   [[nodiscard]] double residual(double value) const { return (least ? limit - value : value - limit) / scale; }
 };
@@ -47,64 +48,9 @@ struct Scales {
   double speed_m_s = 1.0;
 };
 
-[[nodiscard]] std::vector<Demand> demands_of(const mechanics::Plan& given, const Want& want, const Scales& scales);
+[[nodiscard]] std::vector<Demand> demands_of(const Requirements& requirements, const Scales& scales);
 
-/// One residual: of a demand, of whom, when.
-struct Row {
-  std::size_t demand = 0;
-  std::size_t first = 0, second = 0;  ///< carriers, or an edge; `second` of pairs only
-  std::size_t sample = 0;
-};
-
-/// A row and what it is where it was looked at.
-struct Judged {
-  Row row;
-  double residual = 0.0;
-};
-
-class Judge {
- public:
-  /// All of them live as long as this.
-  Judge(const mechanics::Plan& plan, const Unknowns& unknowns, const std::vector<Demand>& demands,
-        const SampledMotion& motion);
-
-  /// Gives every pair the side on which it is furthest apart in the motion as it was last evaluated.
-  void choose_sides();
-
-  /// Residuals above `least`, and the greatest of all. Of the motion as it was last evaluated, at x.
-  struct Findings {
-    std::vector<Judged> rows;
-    double worst = 0.0;
-  };
-  [[nodiscard]] Findings find(const Eigen::VectorXd& x, double least) const;
-
-  /// One residual, and gradient = its change by x.
-  double residual(const Row& row, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> gradient) const;
-
- private:
-  struct Gap {
-    double distance_m = 0.0;
-    Eigen::Vector3d along = Eigen::Vector3d::Zero();  ///< unit, from the first to the second
-    double first_share = 1.0, second_share = 1.0;     ///< how far along their cables the closest points are
-  };
-  /// How far apart on a side, and how that changes with either carrier's place.
-  struct Side {
-    double distance_m = 0.0;
-    Eigen::Vector3d by_first = Eigen::Vector3d::Zero(), by_second = Eigen::Vector3d::Zero();
-  };
-  [[nodiscard]] Side side(const Row& row, const Eigen::Vector3d& along) const;
-  [[nodiscard]] const Eigen::Vector3d& chosen(const Row& row) const {
-    return sides_[row.first * motion_.carriers() + row.second];
-  }
-  [[nodiscard]] Gap separation(const Row& row) const;
-  [[nodiscard]] Gap clearance(const Row& row) const;
-  [[nodiscard]] double value(const Row& row, const Eigen::VectorXd& x) const;
-
-  const mechanics::Plan& plan_;
-  const Unknowns& unknowns_;
-  const std::vector<Demand>& demands_;
-  const SampledMotion& motion_;
-  std::vector<Eigen::Vector3d> sides_;  ///< of pairs, by first and second
-};
+/// The limit as the file has it.
+[[nodiscard]] double shown_limit(const Demand& demand);
 
 }  // namespace gyre::design

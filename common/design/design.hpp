@@ -33,6 +33,7 @@ using KeepGoing = std::function<bool(const Progress&)>;
 /// A limit that holds the design back, and what less of it would bring.
 struct Price {
   std::string name;  ///< "clearance_min_m"
+  const char* unit = "";
   double limit = 0.0;
   double relaxed = 0.0;  ///< the limit that was tried
   double figure = 0.0;   ///< the objective's figure under it

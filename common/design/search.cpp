@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "common/design/judge.hpp"
+
 namespace gyre::design {
 namespace {
 
@@ -53,8 +55,9 @@ class Round {
     nlopt_add_inequality_mconstraint(opt_, static_cast<unsigned>(rows_.size()), &Round::constraints, this,
                                      tolerances.data());
     nlopt_set_maxeval(opt_, kSteps);
-    nlopt_set_xtol_rel(opt_, 1e-8);
-    nlopt_set_ftol_rel(opt_, 1e-8);
+    // Only by x: a search along a line that has to turn back at first changes the cost by nothing, and is not at its
+    // end.
+    nlopt_set_xtol_rel(opt_, 1e-12);
     Vector x = start.cwiseMax(lower).cwiseMin(upper);
     double least = 0.0;
     (void)nlopt_optimize(opt_, x.data(), &least);  // whatever it says, x is judged by who asked

@@ -13,8 +13,9 @@ namespace {
 constexpr const char* kOwnGroup = "Options";
 constexpr const char* kExitCodes = "Exit codes: 0 good, 1 refused or failed, 2 bad usage or bad file.";
 
-/// "--log-level" -> "GYRE_LOG_LEVEL"
-std::string variable_of(const std::string& name) {
+/// "--log-level" -> "GYRE_LOG_LEVEL", "-o,--output" -> "GYRE_OUTPUT"
+std::string variable_of(const std::string& names) {
+  const std::string name = names.substr(names.rfind(',') + 1);
   std::string variable = "GYRE_";
   for (const char c : name.substr(name.find_first_not_of('-'))) {
     variable += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));

@@ -44,7 +44,7 @@ enum class Take {
 };
 
 struct Option {
-  std::string name;  ///< "--domain"; a name without dashes is a word by its place: "MISSION"
+  std::string name;  ///< "--domain", "-o,--output"; a name without dashes is a word by its place: "MISSION"
   Target value;
   std::string meaning;
   std::optional<Bounds> bounds{};  ///< of a number

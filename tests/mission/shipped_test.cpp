@@ -31,10 +31,11 @@ TEST(Shipped, EveryFileIsInTheList) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(GYRE_SOURCE_DIR) + "/deploy/missions")) {
     if (entry.path().extension() != ".textproto") continue;
+    EXPECT_EQ(file_text(entry.path().string()).rfind("# ", 0), 0u) << entry.path() << " has to say what it shows";
+    if (entry.path().stem().extension() == ".requirements") continue;
     ++files;
     EXPECT_EQ(std::count(kShippedMissions.begin(), kShippedMissions.end(), entry.path().stem().string()), 1)
         << entry.path();
-    EXPECT_EQ(file_text(entry.path().string()).rfind("# ", 0), 0u) << entry.path() << " has to say what it shows";
   }
   EXPECT_EQ(files, kShippedMissions.size());
 }

@@ -28,7 +28,10 @@ class Rehearsed : public testing::Test {
   Rehearsed() {
     for (std::size_t i = 0; i < motion_.size(); ++i) stacks_.push_back({{&rest_[i], 0, 0, 0}, {&motion_[i], 0, 0, 5}});
   }
-  Rehearsal rehearsal(const mechanics::Limits& limits) { return {stacks_, limits}; }
+  Rehearsal rehearsal(const mechanics::Limits& limits) {
+    plan_.limits = limits;
+    return {stacks_, plan_};
+  }
   static int steps(Rehearsal& rehearsal) {
     int steps = 1;
     while (!rehearsal.advance() && steps < 100) ++steps;

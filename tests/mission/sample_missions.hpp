@@ -46,8 +46,8 @@ inline std::string replaced(std::string text, const std::string& what, const std
 }
 
 inline const std::vector<std::string> kShippedMissions = {
-    "paper",  "paper-fixed", "paper-headings", "paper-enduring",  "pair-unrestricted", "pair-level",
-    "single", "tri-mixed",   "penta-tilted",   "fixed-wing-trio", "hex-multirotor"};
+    "paper", "paper-fixed", "paper-headings", "paper-enduring", "pair-unrestricted", "pair-level",
+    "pair",  "single",      "tri-mixed",      "penta-tilted",   "fixed-wing-trio",   "hex-multirotor"};
 
 inline std::string shipped_path(const std::string& name) {
   return std::string(GYRE_SOURCE_DIR) + "/deploy/missions/" + name + ".textproto";

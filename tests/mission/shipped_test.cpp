@@ -61,7 +61,7 @@ TEST(Shipped, OnlyWhatCannotStopOrIsMeantToEndureFliesOnInSilence) {
 
 TEST(Shipped, TheWingedTrioKeepsFlyingAndApart) {
   const mechanics::Certificate certificate = certified("fixed-wing-trio");
-  EXPECT_GE(certificate.separation->min_m, 4.0);
+  EXPECT_GE(certificate.separation->min_m, 6.0);
   for (const mechanics::CarrierFigures& carrier : certificate.carriers) {
     EXPECT_GE(carrier.speed_m_s.min, 12.0);
     EXPECT_LE(carrier.acceleration_max_m_s2, 12.0);

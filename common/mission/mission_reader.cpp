@@ -6,6 +6,7 @@
 #include <set>
 
 #include "common/base/angle.hpp"
+#include "common/mechanics/load_hull.hpp"
 #include "common/mission/complaints.hpp"
 #include "common/mission/load_reader.hpp"
 #include "common/mission/located.hpp"
@@ -124,7 +125,8 @@ mechanics::Winch read_winch(const Located& winch) {
           winch.optional_number("acceleration_max_m_s2", kAcceleration)};
 }
 
-std::vector<mechanics::Carrier> read_carriers(const std::vector<Located>& nodes, double cycle_rate_rad_s) {
+std::vector<mechanics::Carrier> read_carriers(const std::vector<Located>& nodes, const mechanics::Load& load,
+                                              double cycle_rate_rad_s) {
   std::vector<mechanics::Carrier> out;
   std::set<CarrierId> seen;
   for (const Located& node : nodes) {
@@ -136,6 +138,9 @@ std::vector<mechanics::Carrier> read_carriers(const std::vector<Located>& nodes,
     }
     (void)node.required_child("attachment_m", "give attachment_m { x: .. y: .. z: .. } in the body frame");
     carrier.attachment_b_m = node.vector("attachment_m", kPlaceM);
+    if (!load.hull_b_m.empty() && !mechanics::LoadCone::seen_from(carrier.attachment_b_m, load.hull_b_m)) {
+      node.complain("attachment_m", "is inside the load's shape; give a place on it, or a smaller shape");
+    }
     carrier.law = read_law(node, cycle_rate_rad_s);
     carrier.radius_m = node.number("radius_m", kLengthM, 0.0);
     carrier.vehicle = read_vehicle(node.child("vehicle"));
@@ -210,7 +215,7 @@ mechanics::Plan read_plan(const Located& root) {
     return plan;
   }
   const bool rate_known = cycle.sound("rate_rad_s", kRate);
-  plan.carriers = read_carriers(root.children("carrier"), rate_known ? plan.cycle.rate_rad_s : kUnknownRate);
+  plan.carriers = read_carriers(root.children("carrier"), plan.load, rate_known ? plan.cycle.rate_rad_s : kUnknownRate);
   if (!root.has("cycle")) return plan;
   const std::vector<Located> edges = cycle.children("edge");
   plan.cycle.edges = read_edges(edges);

@@ -85,19 +85,25 @@ TEST(Braids, OffsetsThatPullTheCirclesApartUnbraidThem) {
   EXPECT_TRUE(braids_of(plan).empty());
 }
 
-/// How often b goes around a, in a period, in the horizontal plane: the angle swept over a turn.
-int swept(const CarrierSlice& a, const CarrierSlice& b, double period) {
+/// How often b goes around a, in a period, in the horizontal plane: the angle swept over a turn. Absent where samples
+/// are too far apart to tell.
+std::optional<int> swept(const CarrierSlice& a, const CarrierSlice& b, double period) {
   double swept_rad = 0.0;
+  double greatest_rad = 0.0;
   std::optional<double> last;
-  sample(0.0, period, 20000, [&](double t_s) {
+  sample(0.0, period, 2000, [&](double t_s) {
     const Eigen::Vector3d d = evaluate(b, t_s).position_w_m.value - evaluate(a, t_s).position_w_m.value;
     const double angle = std::atan2(d.y(), d.x());
-    if (last) swept_rad += std::remainder(angle - *last, kTwoPi);
+    const double step = last ? std::remainder(angle - *last, kTwoPi) : 0.0;
+    greatest_rad = std::max(greatest_rad, std::abs(step));
+    swept_rad += step;
     last = angle;
   });
+  if (greatest_rad > 0.5) return std::nullopt;
   return static_cast<int>(std::lround(swept_rad / kTwoPi));
 }
 
+// In CMakeLists.txt: 2000 cases.
 RC_GTEST_PROP(Braids, carriers_at_one_altitude_wind_as_often_as_they_sweep_around_each_other, ()) {
   RandomPlan wish;
   wish.carriers_max = 6;
@@ -112,10 +118,11 @@ RC_GTEST_PROP(Braids, carriers_at_one_altitude_wind_as_often_as_they_sweep_aroun
   int total = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t j = i + 1; j < all.size(); ++j) {
-      const int expected = swept(all[i], all[j], period_s(plan));
+      const std::optional<int> expected = swept(all[i], all[j], period_s(plan));
+      if (!expected) continue;
       const auto found = winding.find({all[i].id, all[j].id});
-      RC_ASSERT((found == winding.end() ? 0 : std::abs(found->second)) == std::abs(expected));
-      if (expected != 0) ++total;
+      RC_ASSERT((found == winding.end() ? 0 : std::abs(found->second)) == std::abs(*expected));
+      if (*expected != 0) ++total;
     }
   }
   RC_TAG(total > 0 ? "braided" : "free");

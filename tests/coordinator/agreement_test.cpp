@@ -68,6 +68,32 @@ TEST_F(Rehearsed, FindsCarriersThatComeTooClose) {
   EXPECT_EQ(bad.reasons().front().rule, mechanics::Rule::kSeparation);
 }
 
+TEST_F(Rehearsed, FindsWhatWouldTouch) {
+  mechanics::Limits limits;
+  limits.clearance_min_m = 0.1;
+  Rehearsal good = rehearsal(limits);
+  EXPECT_EQ(steps(good), 4);
+  EXPECT_TRUE(good.reasons().empty());
+
+  limits.clearance_min_m = 1e3;
+  Rehearsal near = rehearsal(limits);
+  EXPECT_EQ(steps(near), 4);
+  ASSERT_FALSE(near.reasons().empty());
+  EXPECT_EQ(near.reasons().front().rule, mechanics::Rule::kClearance);
+
+  plan_.carriers[1].radius_m = 10.0;
+  Rehearsal big = rehearsal({});
+  EXPECT_EQ(steps(big), 4);
+  ASSERT_FALSE(big.reasons().empty());
+  EXPECT_NE(big.reasons().front().text.find("touch"), std::string::npos) << big.reasons().front().text;
+  plan_.carriers[1].radius_m = 0.0;
+
+  plan_.load.hull_b_m = mechanics::box_hull({1.0, 1.0, 4.0}, Eigen::Vector3d::Zero());  // higher than the carriers fly
+  Rehearsal tall = rehearsal({});
+  EXPECT_EQ(steps(tall), 4);
+  EXPECT_FALSE(tall.reasons().empty());
+}
+
 TEST_F(Rehearsed, ALimitThatBreaksOnlyTowardsTheEndIsFound) {
   for (auto& stack : stacks_) stack.back().duration_s = 30.0;  // slow: the motion itself is what is fastest
   mechanics::Limits limits;

@@ -2,12 +2,14 @@
 
 #include <cmath>
 
+#include "common/mechanics/braid.hpp"
 #include "common/mechanics/carrier_slice.hpp"
+#include "common/mechanics/clearance.hpp"
 #include "common/mechanics/grasp.hpp"
 #include "common/mechanics/judgement.hpp"
+#include "common/mechanics/load_hull.hpp"
 #include "common/mechanics/orbit_figures.hpp"
 #include "common/mechanics/reference.hpp"
-#include "common/mechanics/separation.hpp"
 #include "common/mechanics/stiffness.hpp"
 
 namespace gyre::mechanics {
@@ -34,14 +36,27 @@ double wrench_error(const Plan& plan, const std::vector<CarrierSlice>& slices) {
   return mean.norm() + std::sqrt(sine.squaredNorm() + cosine.squaredNorm());
 }
 
-std::optional<Separation> orbit_separation(const std::vector<CarrierSlice>& slices, const Certificate& certificate) {
-  std::vector<Path> paths;
+/// Everything that must not touch: carriers, cables, vehicles, the load.
+void certify_apart(const Plan& plan, const std::vector<CarrierSlice>& slices, Certificate& certificate) {
+  std::vector<Hanging> carriers;
   for (std::size_t i = 0; i < slices.size(); ++i) {
-    const CarrierFigures& figures = certificate.carriers[i];
-    paths.push_back({figures.id, figures.speed_m_s.max, figures.acceleration_max_m_s2,
-                     [&slice = slices[i]](double t_s) { return evaluate(slice, t_s).position_w_m; }});
+    carriers.push_back({slices[i].id, slices[i].attachment_w_m, plan.carriers[i].radius_m,
+                        certificate.carriers[i].altitude_m.min, certificate.carriers[i].acceleration_max_m_s2,
+                        [&slice = slices[i]](double t_s) { return evaluate(slice, t_s).position_w_m; }});
   }
-  return separation(paths, 0.0, certificate.period_s);
+  const std::vector<Eigen::Vector3d> hull = hull_w(plan.load);
+  certificate.separation = separation(carriers, 0.0, certificate.period_s);
+  certificate.cable_distance = cable_distance(carriers, 0.0, certificate.period_s);
+  certificate.clearance = clearance(carriers, hull, 0.0, certificate.period_s);
+  certificate.above_load_min_m = above_load(carriers, hull);
+
+  if (certificate.separation) judge_separation(*certificate.separation, plan.limits, certificate.reasons);
+  const std::vector<Braid> braided =
+      certificate.clearance ? braids(slices, certificate.period_s) : std::vector<Braid>{};
+  judge_braids(braided, certificate.reasons);
+  if (certificate.clearance && braided.empty())
+    judge_clearance(*certificate.clearance, plan.limits, certificate.reasons);
+  if (certificate.above_load_min_m) judge_above_load(*certificate.above_load_min_m, plan.limits, certificate.reasons);
 }
 
 }  // namespace
@@ -64,7 +79,7 @@ Certificate certify(const Plan& plan, const CertifyOptions& options) {
     stretched = stretched && length.min > 0.0 && std::isfinite(length.max);
     judge_carrier(certificate.carriers.back(), plan.limits, options.non_stop, certificate.reasons);
   }
-  if (options.separation) certificate.separation = orbit_separation(all, certificate);
+  if (options.separation) certify_apart(plan, all, certificate);
   if (options.stiffness && stretched) {
     certificate.stiffness_min_1_s2 = least_stiffness(plan, all, certificate.period_s);
     certificate.skew = skew_budget(plan, all, certificate.period_s);
@@ -75,7 +90,6 @@ Certificate certify(const Plan& plan, const CertifyOptions& options) {
            "higher above the centre of mass, shorten them, or choose offsets that pull the attachments apart"});
     }
   }
-  if (certificate.separation) judge_separation(*certificate.separation, plan.limits, certificate.reasons);
   return certificate;
 }
 

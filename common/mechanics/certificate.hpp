@@ -2,9 +2,9 @@
 // The certificate: what a plan does at its worst, over all time, and whether that is allowed.
 //
 // Intuition: with one rate every force runs on an ellipse, so every figure of the motion is a quotient of
-// trigonometric polynomials, and its extremes are among the roots of another one. They are found, not sampled. Only
-// the distance between carriers has no such form; it is bounded by branch and bound with a bound on its second
-// derivative that follows from the exact speeds and accelerations: still a proof.
+// trigonometric polynomials, and its extremes are among the roots of another one. They are found, not sampled. So are
+// the moments at which cables may cross. Only distances have no such form; they are bounded by branch and bound, from
+// the exact speeds and accelerations: still a proof.
 //
 // The verdict is "admissible" exactly when `reasons` is empty. A reason names the paper's rule that is broken, the
 // carrier, and what would cure it. Figures are given for refused plans too, as far as they exist (infinite where a
@@ -42,6 +42,8 @@ enum class Rule {
   kSpeed,
   kAcceleration,
   kSeparation,
+  kBraid,
+  kClearance,
   kStiffness,
 };
 
@@ -70,10 +72,22 @@ struct CarrierFigures {
   [[nodiscard]] double winch_rate_max_m_s() const { return std::max(winch_rate_m_s.max, -winch_rate_m_s.min); }
 };
 
-struct Separation {
-  double min_m = 0.0;               ///< proven lower bound, attained to 2e-7 m
-  CarrierId first = 0, second = 0;  ///< the pair that comes so close
+/// What comes close to what (clearance.hpp).
+enum class Touch { kPlaces, kCables, kStrayingCable, kVehicleAndCable, kVehicles, kCableAndLoad };
+
+/// As a person reads it: "cable and load".
+[[nodiscard]] const char* name(Touch what);
+
+/// How close, and who when.
+struct Approach {
+  double min_m = 0.0;  ///< proven lower bound
+  Touch what = Touch::kPlaces;
+  CarrierId first = 0, second = 0;  ///< 0: the load
+  double at_s = 0.0;
 };
+
+/// "the cables of carriers 1 and 2".
+[[nodiscard]] std::string who(const Approach& approach);
 
 struct Certificate {
   std::vector<Reason> reasons;
@@ -82,8 +96,14 @@ struct Certificate {
   std::vector<Reason> cautions;
   double period_s = std::numeric_limits<double>::infinity();
   double wrench_error_max_n = std::numeric_limits<double>::infinity();
-  /// Absent: left out, fewer than two carriers, or a motion without bounds.
-  std::optional<Separation> separation;
+  /// Of carriers, attained to 2e-7 m. Absent: left out, fewer than two carriers, or a motion without bounds.
+  std::optional<Approach> separation;
+  /// Of cables; at most 1 % below the truth, as is the clearance.
+  std::optional<Approach> cable_distance;
+  /// How far a carrier may stray before something touches: cables, vehicles, the load (clearance.hpp).
+  std::optional<Approach> clearance;
+  /// From the load's highest corner to the lowest edge of a vehicle; absent for a load without a shape.
+  std::optional<double> above_load_min_m;
   /// Smallest generalised eigenvalue of the load's stiffness against (m I, J) over all time [1/s²] (stiffness.hpp).
   /// Absent: left out, or a cable has no positive, bounded length at some moment.
   std::optional<double> stiffness_min_1_s2;
@@ -95,9 +115,9 @@ struct Certificate {
 
 /// What to compute: the parts that are not per-carrier cost more (pairs, eigenvalues) and can be left out.
 struct CertifyOptions {
-  bool separation = true;
-  bool stiffness = true;  ///< and the skew budget
-  bool non_stop = true;   ///< off for a plan that is meant to stand still
+  bool separation = true;  ///< and all that must not touch
+  bool stiffness = true;   ///< and the skew budget
+  bool non_stop = true;    ///< off for a plan that is meant to stand still
 };
 
 /// Of any plan, whatever is in it: nothing here asks that it be valid.

@@ -4,12 +4,10 @@
 //   F = N · prod D_i^(p_i / 2),  D_i > 0          F' = prod D_i^(p_i/2 − 1) · T
 //   T = N' prod D_i + N sum (p_i / 2) D_i' prod_{j != i} D_j                                     (critical polynomial)
 //
-// The naive way samples F and hopes; eigenvalues of a companion matrix find the roots of T but say little when two of
-// them meet, and nothing when F is constant (a carrier that flies a circle). Here the circle is cut into cells, and
-// each cell is settled by a proof from the coefficients of T: it holds no root; or it holds at most one, which Newton
-// finds; or F cannot change across it by more than rounding. What is left is halved.
+// The naive way samples F and hopes. Here every root of T is found (roots.hpp), but where F cannot change across a cell
+// by more than rounding: all along, when F is constant (a carrier that flies a circle).
 //
-// Reference: docs/design.md, fact 1; Newton's condition is Kantorovich's.
+// Reference: docs/design.md, fact 1.
 
 #include <initializer_list>
 #include <vector>

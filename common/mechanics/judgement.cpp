@@ -8,6 +8,7 @@
 
 #include "common/base/text.hpp"
 #include "common/mechanics/grasp.hpp"
+#include "common/mechanics/load_hull.hpp"
 
 namespace gyre::mechanics {
 namespace {
@@ -56,6 +57,19 @@ bool is_cycle(const std::vector<Edge>& edges, const std::set<CarrierId>& carrier
     if (edges.size() > 1 && edges[j].to != next.from) return false;
   }
   return true;
+}
+
+template <class Malformed>
+void judge_shape(const Plan& plan, const Malformed& malformed) {
+  const std::vector<Eigen::Vector3d>& hull = plan.load.hull_b_m;
+  if (hull.empty()) return;
+  if (!std::all_of(hull.begin(), hull.end(), [](const Eigen::Vector3d& corner) { return sound(corner); })) {
+    return malformed(std::nullopt, "a corner of the load's shape is in no numbers of this world; give metres");
+  }
+  for (const Carrier& c : plan.carriers) {
+    if (!sound(c.attachment_b_m) || LoadCone::seen_from(c.attachment_b_m, hull)) continue;
+    malformed(c.id, text("carrier %u: its attachment is inside the load's shape; attach it at the surface", c.id));
+  }
 }
 
 void judge_pair(const std::vector<CarrierSlice>& slices, std::vector<Reason>& reasons) {
@@ -173,6 +187,10 @@ const char* name(Rule rule) {
       return "acceleration";
     case Rule::kSeparation:
       return "separation";
+    case Rule::kBraid:
+      return "braid";
+    case Rule::kClearance:
+      return "clearance";
     case Rule::kStiffness:
       return "stiffness";
   }
@@ -195,6 +213,9 @@ void judge_form(const Plan& plan, std::vector<Reason>& reasons) {
   std::set<CarrierId> carriers;
   for (const Carrier& c : plan.carriers) {
     if (!carriers.insert(c.id).second) malformed(c.id, text("two carriers are carrier %u; number each its own", c.id));
+    if (!sound(c.radius_m) || c.radius_m < 0.0) {
+      malformed(c.id, text("carrier %u: its radius is no length; give the vehicle's, in metres", c.id));
+    }
     if (!sound(c.attachment_b_m) || !sound(c.law.profile) || (c.law.is_projection() && !unit(c.law.direction.norm()))) {
       malformed(c.id, text("carrier %u: its attachment or its length law is not in numbers of this world, the law's "
                            "direction no unit vector, or its rate not p/q of the cycle's; give such numbers, a unit "
@@ -202,6 +223,7 @@ void judge_form(const Plan& plan, std::vector<Reason>& reasons) {
                            c.id, kMaxNumerator, kMaxDenominator));
     }
   }
+  judge_shape(plan, malformed);
   if (!sound(plan.cycle.rate_rad_s) || !(plan.cycle.rate_rad_s > 0.0)) {
     malformed(std::nullopt,
               "the cycle's rate is no positive number; a plan that stands still has a rate and no amplitudes");
@@ -299,14 +321,6 @@ void judge_carrier(const CarrierFigures& f, const Limits& limits, bool non_stop,
   at_least({Rule::kSpeed, "speed", " m/s", "speed_min_m_s",
             "raise the cycle's rate, or choose phases nearer to the edge headings"},
            f.speed_m_s.min, limits.speed_min_m_s, id, reasons);
-}
-
-void judge_separation(const Separation& s, const Limits& limits, std::vector<Reason>& reasons) {
-  if (!limits.separation_min_m || s.min_m >= *limits.separation_min_m) return;
-  refuse(reasons, Rule::kSeparation, s.first,
-         text("carriers %u and %u come as close as %.6g m, below separation_min_m %.6g; set their altitudes or "
-              "attachments further apart, or lower the amplitudes",
-              s.first, s.second, s.min_m, *limits.separation_min_m));
 }
 
 }  // namespace gyre::mechanics

@@ -11,6 +11,7 @@
 
 #include <vector>
 
+#include "common/mechanics/braid.hpp"
 #include "common/mechanics/carrier_slice.hpp"
 #include "common/mechanics/certificate.hpp"
 
@@ -31,6 +32,15 @@ void judge_construction(const Plan& plan, const std::vector<CarrierSlice>& slice
 /// The forces exist: |G f0 − w| is rounding.
 void judge_equilibrium(const Plan& plan, std::vector<Reason>& reasons);
 
-void judge_separation(const Separation& separation, const Limits& limits, std::vector<Reason>& reasons);
+void judge_separation(const Approach& separation, const Limits& limits, std::vector<Reason>& reasons);
+
+/// Cables that pass through each other: never.
+void judge_braids(const std::vector<Braid>& braids, std::vector<Reason>& reasons);
+
+/// What touches, or is closer to it than the limit.
+void judge_clearance(const Approach& clearance, const Limits& limits, std::vector<Reason>& reasons);
+
+/// Vehicles below the load's highest corner, or closer to it than the limit.
+void judge_above_load(double above_load_min_m, const Limits& limits, std::vector<Reason>& reasons);
 
 }  // namespace gyre::mechanics

@@ -1,21 +1,15 @@
 #include "common/mechanics/orbit_figures.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "common/mechanics/extremes.hpp"
+#include "common/mechanics/force_polynomial.hpp"
 
 namespace gyre::mechanics {
 namespace {
 
 using Polynomial = TrigPolynomial;
-using PolynomialVector = std::array<TrigPolynomial, 3>;
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Polynomial dot(const PolynomialVector& a, const PolynomialVector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /// a' d − power · a d', times d^-(power + 1) the derivative of a d^-power; the leading terms may cancel by algebra.
 PolynomialVector quotient_derivative(const PolynomialVector& a, const Polynomial& d, double power) {
@@ -47,17 +41,7 @@ struct Orbit {
 Orbit orbit_of(const CarrierSlice& c) {
   const Oscillation& profile = c.law.profile;
   const int denominator = profile.constant() ? 1 : profile.harmonic.denominator;
-  Orbit orbit{c.rate_rad_s / denominator, {}, {}, Polynomial(profile.mean)};
-  // f_i = f0_i + lambda_in delta_i + lambda_out deltabar_i
-  const Polynomial in =
-      Polynomial(c.incoming.offset_n) + Polynomial::sine(c.incoming.amplitude_n, denominator, c.incoming.phase_rad);
-  const Polynomial out =
-      Polynomial(c.outgoing.offset_n) + Polynomial::sine(c.outgoing.amplitude_n, denominator, c.outgoing.phase_rad);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    orbit.f[i] =
-        Polynomial(c.particular_force_w_n[axis]) + c.incoming.direction[axis] * in + c.outgoing.direction[axis] * out;
-  }
+  Orbit orbit{c.rate_rad_s / denominator, force_polynomial(c, denominator), {}, Polynomial(profile.mean)};
   orbit.m = dot(orbit.f, orbit.f);
   if (!profile.constant())
     orbit.sigma += Polynomial::sine(profile.swing, profile.harmonic.numerator, profile.phase_rad);
@@ -89,7 +73,7 @@ void free_figures(const CarrierSlice& c, const Orbit& orbit, const Factor& m, Ca
 
 void projection_figures(const CarrierSlice& c, Orbit& orbit, const Factor& m, CarrierFigures& figures) {
   const Eigen::Vector3d& u = c.law.direction;
-  Polynomial g = u.x() * orbit.f[0] + u.y() * orbit.f[1] + u.z() * orbit.f[2];
+  Polynomial g = dot(u, orbit.f);
   Range g_range = extremes(g);
   if (g_range.min <= 0.0 && g_range.max >= 0.0) {
     figures.direction_cosine_min = 0.0;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "common/base/angle.hpp"
+#include "common/mechanics/load_hull.hpp"
 #include "common/mission/complaints.hpp"
 #include "common/mission/load_reader.hpp"
 #include "common/mission/located.hpp"
@@ -153,8 +154,8 @@ mechanics::Winch read_winch(const Located& winch) {
           winch.optional_number("acceleration_max_m_s2", kAcceleration)};
 }
 
-std::vector<mechanics::Carrier> read_carriers(const std::vector<Located>& nodes, const Reading& reading,
-                                              std::vector<design::OpenLaw>& open) {
+std::vector<mechanics::Carrier> read_carriers(const std::vector<Located>& nodes, const mechanics::Load& load,
+                                              const Reading& reading, std::vector<design::OpenLaw>& open) {
   std::vector<mechanics::Carrier> out;
   std::set<CarrierId> seen;
   for (const Located& node : nodes) {
@@ -166,6 +167,9 @@ std::vector<mechanics::Carrier> read_carriers(const std::vector<Located>& nodes,
     }
     (void)node.required_child("attachment_m", "give attachment_m { x: .. y: .. z: .. } in the body frame");
     carrier.attachment_b_m = node.vector("attachment_m", kPlaceM);
+    if (!load.hull_b_m.empty() && !mechanics::LoadCone::seen_from(carrier.attachment_b_m, load.hull_b_m)) {
+      node.complain("attachment_m", "is inside the load's shape; give a place on it, or a smaller shape");
+    }
     carrier.law = read_law(node, reading, open.emplace_back());
     carrier.radius_m = node.number("radius_m", kLengthM, 0.0);
     carrier.vehicle = read_vehicle(node.child("vehicle"));
@@ -249,7 +253,7 @@ mechanics::Plan read_plan(const Located& root, design::Open* gaps) {
     return plan;
   }
   const bool rate_known = cycle.sound("rate_rad_s", kRate);
-  plan.carriers = read_carriers(root.children("carrier"),
+  plan.carriers = read_carriers(root.children("carrier"), plan.load,
                                 {may_be_open, rate_known ? plan.cycle.rate_rad_s : kUnknownRate}, open.laws);
   const std::vector<Located> edges = cycle.children("edge");
   open.order = may_be_open && edges.empty();

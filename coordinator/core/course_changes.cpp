@@ -220,7 +220,7 @@ void Leading::pursue(LocalTime now, Outputs& out) {
       if (!stack.empty()) stacks.push_back(std::move(stack));
     }
     if (stacks.empty()) return give_up(now, "no agent has told yet what it flies", out);
-    agreement_->rehearse(Rehearsal(std::move(stacks), job_.plan.limits));
+    agreement_->rehearse(Rehearsal(std::move(stacks), job_.plan));
   }
   if (agreement_->proposal().pace.ramps.size() > protocol::kMaxRamps) {
     return give_up(now, "too many changes of pace are under way; wait until they are complete", out);

@@ -1,6 +1,6 @@
 #pragma once
-// Before a transition is proposed, it is rehearsed: proven to keep every carrier within the mission's limits and apart
-// from the others at every moment of it. The least speed excepted: it is the motion's, and a transition may begin or
+// Before a transition is proposed, it is rehearsed: proven to keep every carrier within the mission's limits, and from
+// touching anything, at every moment of it. The least speed excepted: it is the motion's, and a transition may begin or
 // end at rest. What to do when a limit breaks is for the agreement to say.
 //
 // A rehearsal is done one carrier at a time, because a proof takes tens of milliseconds and the beacon must not wait.
@@ -15,22 +15,25 @@ namespace gyre::coordinator {
 class Rehearsal {
  public:
   /// `stacks[i]`: carrier i's layers with the transition on top, in seconds on one clock; the slices must outlive this.
-  Rehearsal(std::vector<std::vector<mechanics::TimedLayer>> stacks, const mechanics::Limits& limits);
+  /// `plan`: what limits there are, how big vehicles and load are.
+  Rehearsal(std::vector<std::vector<mechanics::TimedLayer>> stacks, const mechanics::Plan& plan);
 
-  /// One carrier's proof, or the separation of all at the end. True when nothing is left to do.
+  /// One carrier's proof, or at the end that of all: nothing touches. True when nothing is left to do.
   bool advance();
 
   [[nodiscard]] const std::vector<mechanics::Reason>& reasons() const { return reasons_; }
   [[nodiscard]] const std::vector<mechanics::CarrierFigures>& figures() const { return figures_; }
 
  private:
+  void judge_apart();
+
   std::vector<std::vector<mechanics::TimedLayer>> stacks_;
-  mechanics::Limits limits_;
+  mechanics::Plan plan_;
   std::vector<mechanics::CarrierFigures> figures_;
   std::vector<mechanics::Reason> reasons_;
   double begin_s_ = 0.0;
   double end_s_ = 0.0;
-  bool separated_ = false;
+  bool apart_ = false;
 };
 
 }  // namespace gyre::coordinator

@@ -22,6 +22,12 @@ Json figure(const std::optional<Whole>& whole, double Whole::*member) {
   return whole ? figure((*whole).*member) : Json(nullptr);
 }
 
+/// Who comes close to whom; the load is null.
+Json pair_json(const std::optional<mechanics::Approach>& approach) {
+  if (!approach) return nullptr;
+  return Json::array({approach->first, approach->second != 0 ? Json(approach->second) : Json(nullptr)});
+}
+
 Json reasons_json(const std::vector<mechanics::Reason>& reasons) {
   Json out = Json::array();
   for (const mechanics::Reason& reason : reasons) {
@@ -58,6 +64,7 @@ Json certificate_json(const std::string& mission_name, const mechanics::Certific
   for (const mechanics::CarrierFigures& carrier : certificate.carriers) carriers.push_back(carrier_json(carrier));
 
   const auto& separation = certificate.separation;
+  const auto& clearance = certificate.clearance;
   const auto& skew = certificate.skew;
   return {{"name", mission_name},
           {"verdict", certificate.admissible() ? "admissible" : "refused"},
@@ -70,8 +77,15 @@ Json certificate_json(const std::string& mission_name, const mechanics::Certific
           {"skew_displacement_m_per_s", figure(skew, &mechanics::SkewBudget::displacement_m_per_s)},
           {"holdover_s", figure(skew, &mechanics::SkewBudget::holdover_s)},
           {"silence_stop_after_s", silence.stop_after ? Json(seconds(*silence.stop_after)) : Json(nullptr)},
-          {"carrier_separation_min_m", figure(separation, &mechanics::Separation::min_m)},
-          {"carrier_separation_pair", separation ? Json{separation->first, separation->second} : Json(nullptr)},
+          {"carrier_separation_min_m", figure(separation, &mechanics::Approach::min_m)},
+          {"carrier_separation_pair", pair_json(separation)},
+          {"cable_distance_min_m", figure(certificate.cable_distance, &mechanics::Approach::min_m)},
+          {"cable_distance_pair", pair_json(certificate.cable_distance)},
+          {"clearance_min_m", figure(clearance, &mechanics::Approach::min_m)},
+          {"clearance_of", clearance ? Json(mechanics::name(clearance->what)) : Json(nullptr)},
+          {"clearance_pair", pair_json(clearance)},
+          {"clearance_at_s", figure(clearance, &mechanics::Approach::at_s)},
+          {"above_load_min_m", figure(certificate.above_load_min_m)},
           {"stiffness_min_1_s2", figure(certificate.stiffness_min_1_s2)},
           {"carriers", carriers}};
 }

@@ -94,14 +94,19 @@ std::string listed(const std::vector<mechanics::Reason>& reasons) {
   return out;
 }
 
-std::string separation_line(const Limits& limits, const Certificate& certificate) {
-  const auto& separation = certificate.separation;
-  if (!separation) return "-";
-  std::string line =
-      number_text(separation->min_m) + text(" m, carriers %u and %u", separation->first, separation->second);
-  if (!limits.separation_min_m) return line;
-  line += " (limit >= " + number_text(*limits.separation_min_m) + ")";
-  return marked(line, separation->min_m < *limits.separation_min_m);
+std::string approach_line(const std::optional<mechanics::Approach>& approach, const Limit& least_m) {
+  if (!approach) return "-";
+  std::string line = number_text(approach->min_m) + " m, " + mechanics::who(*approach);
+  if (!least_m) return line;
+  line += " (limit >= " + number_text(*least_m) + ")";
+  return marked(line, approach->min_m < *least_m);
+}
+
+std::string clearance_line(const Limits& limits, const Certificate& certificate) {
+  std::string line = approach_line(certificate.clearance, limits.clearance_min_m);
+  if (certificate.above_load_min_m)
+    line += "; vehicles " + number_text(*certificate.above_load_min_m) + " m above the load";
+  return line;
 }
 
 std::string stiffness_line(const std::optional<double>& stiffness_min_1_s2) {
@@ -138,7 +143,9 @@ std::string certificate_table(const std::string& mission_name, const Limits& lim
   out += aligned(rows(limits, certificate));
   out += "\n";
   out += "  period             " + number_text(certificate.period_s) + " s\n";
-  out += "  separation         " + separation_line(limits, certificate) + "\n";
+  out += "  separation         " + approach_line(certificate.separation, limits.separation_min_m) + "\n";
+  out += "  cables apart       " + approach_line(certificate.cable_distance, {}) + "\n";
+  out += "  clearance          " + clearance_line(limits, certificate) + "\n";
   out += "  wrench error       " + text("%.2g", certificate.wrench_error_max_n) + " N at most\n";
   out += "  load stiffness     " + stiffness_line(certificate.stiffness_min_1_s2) + "\n";
   out += "  clock skew         " + skew_line(certificate.skew) + "\n";

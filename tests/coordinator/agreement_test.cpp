@@ -28,7 +28,10 @@ class Rehearsed : public testing::Test {
   Rehearsed() {
     for (std::size_t i = 0; i < motion_.size(); ++i) stacks_.push_back({{&rest_[i], 0, 0, 0}, {&motion_[i], 0, 0, 5}});
   }
-  Rehearsal rehearsal(const mechanics::Limits& limits) { return {stacks_, limits}; }
+  Rehearsal rehearsal(const mechanics::Limits& limits) {
+    plan_.limits = limits;
+    return {stacks_, plan_};
+  }
   static int steps(Rehearsal& rehearsal) {
     int steps = 1;
     while (!rehearsal.advance() && steps < 100) ++steps;
@@ -63,6 +66,32 @@ TEST_F(Rehearsed, FindsCarriersThatComeTooClose) {
   EXPECT_EQ(steps(bad), 4);
   ASSERT_FALSE(bad.reasons().empty());
   EXPECT_EQ(bad.reasons().front().rule, mechanics::Rule::kSeparation);
+}
+
+TEST_F(Rehearsed, FindsWhatWouldTouch) {
+  mechanics::Limits limits;
+  limits.clearance_min_m = 0.1;
+  Rehearsal good = rehearsal(limits);
+  EXPECT_EQ(steps(good), 4);
+  EXPECT_TRUE(good.reasons().empty());
+
+  limits.clearance_min_m = 1e3;
+  Rehearsal near = rehearsal(limits);
+  EXPECT_EQ(steps(near), 4);
+  ASSERT_FALSE(near.reasons().empty());
+  EXPECT_EQ(near.reasons().front().rule, mechanics::Rule::kClearance);
+
+  plan_.carriers[1].radius_m = 10.0;
+  Rehearsal big = rehearsal({});
+  EXPECT_EQ(steps(big), 4);
+  ASSERT_FALSE(big.reasons().empty());
+  EXPECT_NE(big.reasons().front().text.find("touch"), std::string::npos) << big.reasons().front().text;
+  plan_.carriers[1].radius_m = 0.0;
+
+  plan_.load.hull_b_m = mechanics::box_hull({1.0, 1.0, 4.0}, Eigen::Vector3d::Zero());  // higher than the carriers fly
+  Rehearsal tall = rehearsal({});
+  EXPECT_EQ(steps(tall), 4);
+  EXPECT_FALSE(tall.reasons().empty());
 }
 
 TEST_F(Rehearsed, ALimitThatBreaksOnlyTowardsTheEndIsFound) {

@@ -28,13 +28,23 @@ TEST(Check, RefusedIsOneAndSaysWhyAndWhatCures) {
   EXPECT_NE(answer.output.find("add a third"), std::string::npos) << answer.output;
 }
 
+TEST(Check, CablesThatBraidAreRefusedInWords) {
+  const Answer answer =
+      gyre("check " + std::string(GYRE_SOURCE_DIR) + "/tests/data/missions/fixed-wing-braid.textproto");
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_NE(answer.output.find("braid: carriers 1 and 2 wind around each other once per period"), std::string::npos)
+      << answer.output;
+  EXPECT_NE(answer.output.find("enclose each other"), std::string::npos) << answer.output;
+}
+
 TEST(Check, JsonKeepsItsContract) {
   const Answer answer = gyre("check --json " + shipped("tri-mixed"));
   ASSERT_EQ(answer.exit_code, 0) << answer.complaint;
   const Json json = Json::parse(answer.output);
   EXPECT_EQ(json.at("verdict"), "admissible");
   EXPECT_TRUE(json.at("reasons").empty());
-  for (const char* key : {"period_s", "wrench_error_max_n", "carrier_separation_min_m", "stiffness_min_1_s2"}) {
+  for (const char* key : {"period_s", "wrench_error_max_n", "carrier_separation_min_m", "cable_distance_min_m",
+                          "clearance_min_m", "stiffness_min_1_s2"}) {
     EXPECT_TRUE(json.at(key).is_number()) << key;
   }
   ASSERT_EQ(json.at("carriers").size(), 3u);

@@ -83,16 +83,25 @@ TEST(Table, EveryRuleIsNamedWithItsText) {
 
 TEST(Table, WhatWasNotComputedIsADash) {
   mechanics::Certificate certificate = one_bad_carrier();
-  for (const char* line : {"  separation ", "  load stiffness ", "  clock skew "}) {
+  for (const char* line : {"  separation ", "  cables apart ", "  clearance ", "  load stiffness ", "  clock skew "}) {
     const std::string dash = line_of(certificate_table("m", {}, certificate, kStop), line);
     EXPECT_EQ(dash.find_first_not_of(' ', std::string(line).size()), dash.size() - 1) << dash;
     EXPECT_EQ(dash.back(), '-') << dash;
   }
-  certificate.separation = {2.5, 3, 4};
+  certificate.separation = mechanics::Approach{2.5, mechanics::Touch::kPlaces, 3, 4, 0.1};
+  certificate.clearance = mechanics::Approach{0.5, mechanics::Touch::kCableAndLoad, 2, 0, 0.1};
+  certificate.above_load_min_m = 7.0;
   certificate.stiffness_min_1_s2 = 1.5;
   certificate.skew = mechanics::SkewBudget{1.0, 2.0, 0.5, 9.0};
   const std::string table = certificate_table("m", {}, certificate, kStop);
   EXPECT_NE(line_of(table, "  separation ").find("2.5 m, carriers 3 and 4"), std::string::npos) << table;
+  EXPECT_NE(line_of(table, "  clearance ").find("0.5 m, the cable of carrier 2 and the load; vehicles 7 m above"),
+            std::string::npos)
+      << table;
+  mechanics::Limits limits;
+  limits.clearance_min_m = 0.6;
+  EXPECT_NE(line_of(certificate_table("m", limits, certificate, kStop), "  clearance ").find("(limit >= 0.6) !"),
+            std::string::npos);
   EXPECT_NE(line_of(table, "  load stiffness ").find("1.5 1/s^2"), std::string::npos) << table;
   EXPECT_NE(line_of(table, "  clock skew ").find("up to 500 ms"), std::string::npos) << table;
 }
@@ -123,8 +132,10 @@ TEST(Json, WhatIsInfiniteOrAbsentIsNull) {
   EXPECT_EQ(json.at("verdict"), "refused");
   EXPECT_EQ(json.at("reasons")[0].at("rule"), "direction cosine");
   EXPECT_EQ(json.at("reasons")[0].at("carrier"), 7);
-  for (const char* key : {"carrier_separation_min_m", "carrier_separation_pair", "stiffness_min_1_s2", "skew_budget_s",
-                          "skew_residual_n_per_s", "skew_displacement_m_per_s", "holdover_s"}) {
+  for (const char* key :
+       {"carrier_separation_min_m", "carrier_separation_pair", "cable_distance_min_m", "cable_distance_pair",
+        "clearance_min_m", "clearance_of", "clearance_pair", "clearance_at_s", "above_load_min_m", "stiffness_min_1_s2",
+        "skew_budget_s", "skew_residual_n_per_s", "skew_displacement_m_per_s", "holdover_s"}) {
     EXPECT_TRUE(json.at(key).is_null()) << key;
   }
   const auto& carrier = json.at("carriers")[0];

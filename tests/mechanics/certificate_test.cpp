@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "common/mechanics/separation.hpp"
+#include "common/mechanics/clearance.hpp"
 #include "tests/mechanics/plans.hpp"
 #include "tests/mechanics/track.hpp"
 
@@ -88,7 +88,7 @@ RC_GTEST_PROP(Certificate, the_pair_it_names_attains_the_separation, ()) {
   const Plan plan = random_plan(wish);
   CertifyOptions options;
   options.stiffness = false;
-  const Separation s = certify(plan, options).separation.value();
+  const Approach s = certify(plan, options).separation.value();
   std::vector<CarrierSlice> all = slices(plan);
   const auto distance = [&](double t_s) {
     return (evaluate(all.at(s.first - 1), t_s).position_w_m.value -

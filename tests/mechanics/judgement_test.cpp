@@ -14,8 +14,11 @@
 namespace gyre::mechanics::test {
 namespace {
 
+/// The reference's pair, pulled apart: as it stands there its cables pass through each other.
 Plan pair() {
-  return reference_plan("pair-unrestricted");
+  Plan plan = reference_plan("pair-unrestricted");
+  plan.cycle.edges[0].offset_n = 8.0;
+  return plan;
 }
 
 /// The plan's verdict has a reason of this rule (for this carrier, if one is given), with a cure.

@@ -133,7 +133,10 @@ TEST_P(ReferenceCase, the_formation_keeps_the_reference_separation_and_holds_the
   const Json s = summary();
   EXPECT_NEAR(certificate.separation->min_m, s.at("carrier_separation_min_m").get<double>(), 1e-6);
   EXPECT_LT(certificate.wrench_error_max_n, 1e-12 * plan().load.mass_kg * plan().gravity_m_s2);
-  EXPECT_TRUE(certificate.admissible()) << certificate.reasons.front().text;
+  // The pair's cables lie across each other for a quarter of the period; the reference knows nothing of cables.
+  const bool crosses = GetParam() == std::string("pair-unrestricted");
+  ASSERT_EQ(certificate.reasons.size(), crosses ? 1U : 0U) << certificate.reasons.front().text;
+  for (const Reason& reason : certificate.reasons) EXPECT_EQ(reason.rule, Rule::kClearance);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ReferenceCase,

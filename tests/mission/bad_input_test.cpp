@@ -109,6 +109,7 @@ const BadInput kBadInputs[] = {
     {"ShapeThatSaysNothing", "box { x_m: 1.8 y_m: 1.7 z_m: 0.35 centre_m { z: 0.075 } }", "", 6, "load.shape: says nothing", "box { x_m"},
     {"HullOfThree", "box { x_m: 1.8 y_m: 1.7 z_m: 0.35 centre_m { z: 0.075 } }", "hull { vertex_m { x: 1 } vertex_m { y: 1 } vertex_m { z: 1 } }", 6, "there are 3", "4 to 64"},
     {"HullWithoutThickness", "box { x_m: 1.8 y_m: 1.7 z_m: 0.35 centre_m { z: 0.075 } }", "hull { vertex_m { x: 1 } vertex_m { y: 1 } vertex_m { x: -1 } vertex_m { y: -1 } }", 6, "in one plane", "thickness"},
+    {"AttachedInside", "attachment_m { x: 0 y: 0.8 z: 0.35 }", "attachment_m { x: 0 y: 0.8 z: 0.2 }", 11, "carrier[1].attachment_m: is inside the load's shape", "give a place on it"},
     {"NegativeRadius", "radius_m: 0.4", "radius_m: -0.4", 10, "carrier[0].radius_m", "from 0"},
     {"ThrustOfNoMass", "mass_kg: 2.5", "", 10, "carrier[0].vehicle.thrust_max_n: cannot be judged", "give mass_kg"},
     {"BankBeyondTheHorizon", "bank_max_deg: 35", "bank_max_deg: 120", 10, "carrier[0].vehicle.bank_max_deg: is 120", "to 90 deg"},

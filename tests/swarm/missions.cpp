@@ -40,7 +40,8 @@ Plan paper() {
   return plan;
 }
 
-/// The two-carrier construction: the lengths swing a quarter of a period off the force.
+/// The two-carrier construction: the lengths swing a quarter of a period off the force, whose offset keeps each carrier
+/// on its own side, or their cables would cross.
 Plan pair(Draw& draw) {
   Plan plan;
   plan.load.mass_kg = draw(0.5, 4.0);
@@ -50,7 +51,7 @@ Plan pair(Draw& draw) {
   plan.carriers = {{1, {1.0, 0.0, 0.2}, LengthLaw::sine({3.0, 0.8, {}, phase_rad})},
                    {2, {-1.0, 0.0, 0.2}, LengthLaw::sine({3.0, -0.8, {}, phase_rad})}};
   plan.cycle.rate_rad_s = draw(0.2, 0.8);
-  plan.cycle.edges = {{1, 2, 0.0, 3.0 * plan.load.mass_kg, phase_rad + kPi / 2}};
+  plan.cycle.edges = {{1, 2, 4.0 * plan.load.mass_kg, 3.0 * plan.load.mass_kg, phase_rad + kPi / 2}};
   return plan;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "common/base/angle.hpp"
+#include "common/mechanics/clearance.hpp"
+#include "common/mechanics/load_hull.hpp"
 
 namespace gyre::design {
 namespace {
@@ -79,15 +81,23 @@ class Collector {
     const double size = scales_.length_m;
     if (limits_.separation_min_m)
       add({Kind::kSeparation, Figure::kCount, true, *limits_.separation_min_m, size, -1, "separation_min_m", "m"});
+    const bool asked = limits_.clearance_min_m.has_value();
     const double clearance = limits_.clearance_min_m.value_or(kClearanceShare * size);
-    if (limits_.clearance_min_m) {
-      add({Kind::kClearance, Figure::kCount, true, clearance, size, -1, "clearance_min_m", "m"});
-    } else {
-      add({Kind::kClearance, Figure::kCount, true, clearance, size, -1, "nothing touches, clearance", "m",
-           Origin::kAlways});
+    const char* name = asked ? "clearance_min_m" : "nothing touches, clearance";
+    const auto apart = [&](Kind kind, double limit, const char* of, Origin origin) {
+      add({kind, Figure::kCount, true, limit, size, -1, of, "m", origin, 1.0 - mechanics::kClearanceSlack});
+    };
+    apart(Kind::kClearance, clearance, name, asked ? Origin::kAsked : Origin::kAlways);
+    apart(Kind::kSide, kSideShare * clearance, "no cables braid, apart by", Origin::kAlways);
+    if (given_.load.hull_b_m.empty()) return;
+    apart(Kind::kLoad, clearance, name, asked ? Origin::kAsked : Origin::kAlways);
+    double top = -std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector3d& corner : mechanics::hull_w(given_.load)) top = std::max(top, corner.z());
+    for (std::size_t i = 0; i < given_.carriers.size(); ++i) {
+      const double altitude = top + given_.carriers[i].radius_m + clearance;
+      add({Kind::kCarrier, Figure::kAltitude, true, altitude, size, static_cast<int>(i), "vehicles above the load, at",
+           "m", Origin::kAlways});
     }
-    add({Kind::kSide, Figure::kCount, true, kSideShare * clearance, size, -1, "no cables braid, apart by", "m",
-         Origin::kAlways});
   }
 
   void amplitudes() {

@@ -2,7 +2,8 @@
 // What is demanded of a motion, as numbers that a search can push below 0.
 //
 //   symbol    meaning                                                                unit
-//   F         a figure of a carrier, a pair or an edge at a sample                   its own
+//   F         a figure of a carrier, a pair or an edge at a sample, as far as the     its own
+//             certificate will prove it
 //   L, S      its limit; what it is counted in, the limit's own size as a rule       its own
 //
 //   residual = ±(F − L) / S          <= 0: met
@@ -19,7 +20,7 @@
 
 namespace gyre::design {
 
-enum class Kind { kCarrier, kSeparation, kClearance, kSide, kAmplitude };
+enum class Kind { kCarrier, kSeparation, kClearance, kSide, kLoad, kAmplitude };
 
 enum class Origin {
   kAsked,      ///< a limit of the file
@@ -37,8 +38,11 @@ struct Demand {
   std::string name;  ///< as the file has it, "speed_min_m_s"
   const char* unit = "";
   Origin origin = Origin::kAsked;
+  double proven = 1.0;  ///< share of the true figure that the certificate proves
 
-  [[nodiscard]] double residual(double value) const { return (least ? limit - value : value - limit) / scale; }
+  [[nodiscard]] double residual(double value) const { return slope() * (value - limit / proven); }
+  /// d residual / d value.
+  [[nodiscard]] double slope() const { return (least ? -1.0 : 1.0) * proven / scale; }
 };
 
 /// Sizes that numbers of a mission are counted in.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/angle.hpp"
+#include "common/base/ensure.hpp"
 #include "common/mechanics/segment.hpp"
 
 namespace gyre::design {
@@ -23,6 +24,12 @@ Judge::Judge(const Plan& plan, const Unknowns& unknowns, const std::vector<Deman
              const SampledMotion& motion)
     : plan_(plan), unknowns_(unknowns), demands_(demands), motion_(motion) {
   choose_sides();
+  const std::vector<Eigen::Vector3d> hull = mechanics::hull_w(plan.load);
+  for (std::size_t i = 0; i < motion.carriers() && !hull.empty(); ++i) {
+    const std::optional<mechanics::LoadCone> cone = mechanics::LoadCone::seen_from(motion.attachment_w_m(i), hull);
+    GYRE_ENSURE(cone.has_value(), "a valid plan's attachments are on its load or outside");
+    cones_.push_back(*cone);
+  }
 }
 
 Judge::Side Judge::side(const Row& row, const Eigen::Vector3d& along) const {
@@ -100,6 +107,15 @@ Judge::Gap Judge::clearance(const Row& row) const {
   return least;
 }
 
+Judge::Gap Judge::off_load(const Row& row) const {
+  const Eigen::Vector3d place = values(motion_.moment(row.first, row.sample).position_w_m);
+  const Eigen::Vector3d off = cones_[row.first].off(place - motion_.attachment_w_m(row.first));
+  Gap gap;
+  gap.distance_m = off.norm();
+  gap.along = gap.distance_m > 0.0 ? Eigen::Vector3d(off / gap.distance_m) : Eigen::Vector3d::UnitZ();
+  return gap;
+}
+
 double Judge::value(const Row& row, const Eigen::VectorXd& x) const {
   const Demand& demand = demands_[row.demand];
   switch (demand.kind) {
@@ -109,6 +125,8 @@ double Judge::value(const Row& row, const Eigen::VectorXd& x) const {
       return separation(row).distance_m;
     case Kind::kClearance:
       return clearance(row).distance_m;
+    case Kind::kLoad:
+      return off_load(row).distance_m;
     case Kind::kSide:
       return side(row, chosen(row)).distance_m;
     case Kind::kAmplitude:
@@ -137,7 +155,7 @@ Judge::Findings Judge::find(const Eigen::VectorXd& x, double least) const {
         continue;
       }
       for (std::size_t k = 0; k < motion_.samples(); ++k) {
-        if (demand.kind == Kind::kCarrier) {
+        if (demand.kind == Kind::kCarrier || demand.kind == Kind::kLoad) {
           look({d, i, 0, k});
         } else {
           for (std::size_t j = i + 1; j < n; ++j) look({d, i, j, k});
@@ -150,7 +168,7 @@ Judge::Findings Judge::find(const Eigen::VectorXd& x, double least) const {
 
 double Judge::residual(const Row& row, const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> gradient) const {
   const Demand& demand = demands_[row.demand];
-  const double slope = (demand.least ? -1.0 : 1.0) / demand.scale;
+  const double slope = demand.slope();
   gradient.setZero();
   if (demand.kind == Kind::kCarrier) {
     const Number& figure = motion_.moment(row.first, row.sample)[demand.figure];
@@ -161,6 +179,11 @@ double Judge::residual(const Row& row, const Eigen::VectorXd& x, Eigen::Ref<Eige
     const NumberVector& place = motion_.moment(carrier, row.sample).position_w_m;
     for (int axis = 0; axis < 3; ++axis) motion_.scatter(carrier, place[axis].slope, slope * by[axis], gradient);
   };
+  if (demand.kind == Kind::kLoad) {
+    const Gap gap = off_load(row);
+    pull(row.first, gap.along);
+    return demand.residual(gap.distance_m);
+  }
   if (demand.kind == Kind::kSide) {
     const Side apart = side(row, chosen(row));
     pull(row.first, apart.by_first);

@@ -20,6 +20,7 @@
 // Reference: docs/design.md, fact 8.
 
 #include "common/design/demands.hpp"
+#include "common/mechanics/load_hull.hpp"
 
 namespace gyre::design {
 
@@ -71,6 +72,7 @@ class Judge {
     return sides_[row.first * motion_.carriers() + row.second];
   }
   [[nodiscard]] Gap separation(const Row& row) const;
+  [[nodiscard]] Gap off_load(const Row& row) const;
   [[nodiscard]] Gap clearance(const Row& row) const;
   [[nodiscard]] double value(const Row& row, const Eigen::VectorXd& x) const;
 
@@ -78,7 +80,8 @@ class Judge {
   const Unknowns& unknowns_;
   const std::vector<Demand>& demands_;
   const SampledMotion& motion_;
-  std::vector<Eigen::Vector3d> sides_;  ///< of pairs, by first and second
+  std::vector<Eigen::Vector3d> sides_;      ///< of pairs, by first and second
+  std::vector<mechanics::LoadCone> cones_;  ///< of carriers; none for a load without a shape
 };
 
 }  // namespace gyre::design

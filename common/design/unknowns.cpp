@@ -117,7 +117,7 @@ Unknowns family_of(const Plan& plan, const Open& open, const Bounds& bounds) {
       upper = std::min(upper, (level ? bounds.altitude_max_m - ground : bounds.length_max_m) / above);
     }
     if (open.laws[i].swing) {
-      slots.swing_m = {builder.add(1.0, -kRateSpan, kRateSpan), std::max(law.profile.swing, kSmallest), 0.0};
+      slots.swing_m = {builder.add(1.0, -kRateSpan, kRateSpan), law.profile.swing, 0.0};
     }
     out.laws.push_back(slots);
   }

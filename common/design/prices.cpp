@@ -50,7 +50,8 @@ std::vector<Price> prices(Workshop& workshop, const Candidate& candidate) {
     Candidate again = candidate;
     workshop.settle(again, "what " + name + " costs");
     price.figure = workshop.figure(again);
-    if (again.meets() && std::abs(price.figure - figure) > kNothing * std::abs(figure)) out.push_back(price);
+    const bool something = std::abs(price.figure - figure) > kNothing * std::abs(figure);
+    if (again.meets() && something && workshop.better(price.figure, figure)) out.push_back(price);
   }
   workshop.demand(all);
   std::stable_sort(out.begin(), out.end(), [figure](const Price& a, const Price& b) {

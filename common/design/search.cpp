@@ -14,10 +14,13 @@ using Vector = Eigen::VectorXd;
 using Gradients = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr int kRounds = 12;
-constexpr int kSteps = 120;              // of one round
+constexpr int kSteps = 60;               // of one round
 constexpr double kNear = 0.3;            // rows with more than this to spare are left out
-constexpr std::size_t kMostRows = 1600;  // of one round
-constexpr double kEnough = 1e-6;         // of the cost, relative: not worth another round
+constexpr std::size_t kMostRows = 1000;  // of one round
+constexpr double kFirstReach = 0.5;  // how far a round may go, as a share of each variable, or of 1 where it is less
+constexpr double kMostReach = 2.0;
+constexpr double kLeastReach = 5e-3;
+constexpr double kEnough = 1e-4;  // of the cost, relative: not worth another round
 
 enum class Goal { kMeet, kImprove, kRaise };
 
@@ -35,15 +38,16 @@ class Round {
   }
 
   /// (x, t) after the round, from (x, t).
-  Vector run(const Vector& start, double least_t, double most_t) {
+  Vector run(const Vector& start, double least_t, double most_t, double reach) {
     const auto n = static_cast<unsigned>(start.size());
     const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> opt(nlopt_create(NLOPT_LD_SLSQP, n), nlopt_destroy);
     opt_ = opt.get();
     Vector lower(n);
     Vector upper(n);
     const Eigen::Index own = search_.unknowns.start.size();
-    lower.head(own) = search_.unknowns.lower;
-    upper.head(own) = search_.unknowns.upper;
+    const Vector far = reach * start.head(own).cwiseAbs().cwiseMax(1.0);
+    lower.head(own) = search_.unknowns.lower.cwiseMax(start.head(own) - far);
+    upper.head(own) = search_.unknowns.upper.cwiseMin(start.head(own) + far);
     if (goal_ != Goal::kImprove) {
       lower[own] = least_t;
       upper[own] = most_t;
@@ -152,7 +156,7 @@ class Bench {
     return out;
   }
 
-  Vector round(Goal goal, const Vector& x, double least_residual) {
+  Vector round(Goal goal, const Vector& x, double least_residual, double reach) {
     motion_.evaluate(x);
     judge_.choose_sides();
     Judge::Findings findings = judge_.find(x, least_residual);
@@ -174,7 +178,7 @@ class Bench {
       }
     }
     Round round(search_, goal, motion_, judge_, std::move(findings.rows));
-    return round.run(start, least_t, most_t).head(x.size());
+    return round.run(start, least_t, most_t, reach).head(x.size());
   }
 
  private:
@@ -225,7 +229,7 @@ Point meet(const Search& search, const Vector& x, int rounds) {
   Point best = bench.look(x.cwiseMax(search.unknowns.lower).cwiseMin(search.unknowns.upper));
   for (int round = 0; round < rounds && !met(search, best) && going(search); ++round) {
     const double least = best.worst - 0.5 - 0.5 * std::abs(best.worst);
-    const Point next = bench.look(bench.round(Goal::kMeet, best.x, std::isfinite(least) ? least : -kNear));
+    const Point next = bench.look(bench.round(Goal::kMeet, best.x, std::isfinite(least) ? least : -kNear, kMostReach));
     const bool hopeless = !(next.worst < best.worst - 1e-3 * std::max(1.0, std::abs(best.worst)));
     if (next.worst < best.worst) best = next;
     if (hopeless) break;
@@ -237,21 +241,19 @@ Point improve(const Search& search, const Point& from) {
   Bench bench(search);
   const Goal goal = search.raised ? Goal::kRaise : Goal::kImprove;
   Point best = from;
-  Point at = from;
-  for (int round = 0; round < kRounds && going(search); ++round) {
-    Point next = bench.look(bench.round(goal, at.x, -kNear));
-    if (!met(search, next)) {  // rows that were left out: they are near now
-      at = next;
-      if (round % 3 == 2) {
-        at = meet(search, next.x, 2);
-        if (met(search, at) && at.cost < best.cost) best = at;
-      }
-      continue;
+  double reach = kFirstReach;
+  for (int round = 0; round < kRounds && reach > kLeastReach && going(search); ++round) {
+    Point next = bench.look(bench.round(goal, best.x, -kNear, reach));
+    if (!met(search, next)) next = meet(search, next.x, 1);  // rows that were left out are near now
+    const double gain = met(search, next) ? best.cost - next.cost : 0.0;
+    if (gain > 0.0) best = next;
+    if (gain > kEnough * std::abs(best.cost)) {
+      reach = std::min(kMostReach, 2.0 * reach);
+    } else if (gain > 0.0) {
+      break;
+    } else {
+      reach *= 0.3;
     }
-    const bool enough = next.cost > best.cost - kEnough * std::max(1e-3, std::abs(best.cost));
-    if (next.cost < best.cost) best = next;
-    if (enough) break;
-    at = best;
   }
   return best;
 }

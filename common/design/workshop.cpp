@@ -76,10 +76,14 @@ double Workshop::figure(const Candidate& candidate) const {
   return candidate.point.cost;
 }
 
+bool Workshop::better(double figure, double than) const {
+  return raises(requirements_.want.objective) ? figure > than : figure < than;
+}
+
 void Workshop::note(const Candidate& candidate) {
   if (!own_demands_ || !candidate.meets()) return;
   const double now = figure(candidate);
-  if (!best_ || (raises(requirements_.want.objective) ? now > *best_ : now < *best_)) best_ = now;
+  if (!best_ || better(now, *best_)) best_ = now;
 }
 
 Candidate Workshop::family(const Order& order, double pull) {

@@ -66,6 +66,8 @@ class Workshop {
 
   /// The objective's figure as a person is told it.
   [[nodiscard]] double figure(const Candidate& candidate) const;
+  /// Whether one figure is better than another.
+  [[nodiscard]] bool better(double figure, double than) const;
   /// At the samples: the greatest residual of each demand.
   [[nodiscard]] std::vector<double> residuals(const Candidate& candidate) const;
   /// The demand whose limit is the objective.

@@ -15,13 +15,21 @@ constexpr std::size_t kFamilies = 4;  // that are improved
 constexpr std::size_t kWholes = 2;    // families that are searched whole
 constexpr std::size_t kShaken = 3;    // times that a family is shaken and searched again
 constexpr double kShake = 0.15;       // of a variable
-constexpr double kWorthIt = 5e-3;     // by how much the whole has to be better than its family
+constexpr double kWorthIt = 5e-3;     // by how much a motion has to be better to be taken for it
+constexpr double kWorthMore = 5e-2;   // the same, to leave a family for the whole, where effort is what counts
 /// Of a search, and of those that the certificate sent back.
 struct Care {
   double margin;
   int finer;
 };
 constexpr Care kCares[] = {{2e-3, 1}, {4e-3, 2}, {1e-2, 4}};
+
+/// Whether a candidate is better than another by enough; a family may even be a little worse than a whole.
+bool preferred(const Candidate& a, const Candidate& b, Objective objective) {
+  const double more = objective == Objective::kLeastEverything ? kWorthMore : kWorthIt;
+  const double margin = a.family == b.family ? kWorthIt : a.family ? -more : more;
+  return a.point.cost < b.point.cost - margin * std::abs(b.point.cost);
+}
 
 /// The best families over all orders and pulls.
 std::vector<Candidate> families(Workshop& workshop) {
@@ -52,27 +60,50 @@ std::vector<Candidate> candidates(Workshop& workshop, std::uint64_t seed) {
   std::stable_sort(out.begin(), out.end(), before);
   const auto simplest = std::find_if(out.begin(), out.end(), [](const Candidate& c) { return c.family; });
   if (simplest != out.end() && simplest->meets() &&
-      simplest->point.cost <= out.front().point.cost + kWorthIt * std::abs(out.front().point.cost))
+      preferred(*simplest, out.front(), workshop.requirements().want.objective))
     std::rotate(out.begin(), simplest, simplest + 1);
   return out;
 }
 
-/// Takes the first that the certificate admits into the design; the others, which it refuses, are returned.
-std::optional<Candidate> certified(const std::vector<Candidate>& found, Design& out, std::vector<Candidate>& refused) {
-  for (const Candidate& candidate : found) {
-    if (!candidate.meets()) continue;
-    mechanics::Plan plan = candidate.plan();
-    mechanics::Certificate certificate = mechanics::certify(plan);
-    if (certificate.admissible()) {
-      out.plan = std::move(plan);
-      out.certificate = std::move(certificate);
-      return candidate;
+/// Takes the candidates to the certificate: the design is the first that it admits, and then any that is better by
+/// enough to be worth it.
+class Desk {
+ public:
+  Desk(const Workshop& workshop, Design& out) : workshop_(workshop), out_(out) {}
+
+  /// Those that it refuses, and that would be better than what it admitted.
+  std::vector<Candidate> judge(const std::vector<Candidate>& found) {
+    std::vector<Candidate> refused;
+    for (const Candidate& candidate : found) {
+      if (!candidate.meets() || !worth_it(candidate)) continue;
+      mechanics::Plan plan = candidate.plan();
+      mechanics::Certificate certificate = mechanics::certify(plan);
+      if (!certificate.admissible()) {
+        if (!best_ && refused.empty()) out_.certificate = std::move(certificate);
+        refused.push_back(candidate);
+        continue;
+      }
+      out_.plan = std::move(plan);
+      out_.certificate = std::move(certificate);
+      out_.figure = workshop_.figure(candidate);
+      best_ = candidate;
     }
-    if (refused.empty()) out.certificate = std::move(certificate);
-    refused.push_back(candidate);
+    refused.erase(std::remove_if(refused.begin(), refused.end(), [this](const Candidate& c) { return !worth_it(c); }),
+                  refused.end());
+    return refused;
   }
-  return std::nullopt;
-}
+
+  [[nodiscard]] const std::optional<Candidate>& best() const { return best_; }
+
+ private:
+  [[nodiscard]] bool worth_it(const Candidate& candidate) const {
+    return !best_ || preferred(candidate, *best_, workshop_.requirements().want.objective);
+  }
+
+  const Workshop& workshop_;
+  Design& out_;
+  std::optional<Candidate> best_;
+};
 
 }  // namespace
 
@@ -107,24 +138,19 @@ const char* unit(Objective objective) {
 Design design(const Requirements& requirements, std::uint64_t seed, const KeepGoing& keep_going) {
   Workshop workshop(requirements, seed, keep_going);
   Design out;
+  Desk desk(workshop, out);
   std::vector<Candidate> found = candidates(workshop, seed);
   const std::optional<Candidate> nearest = found.empty() ? std::nullopt : std::optional<Candidate>(found.front());
   for (const Care& care : kCares) {
-    if (care.finer > 1) {  // what was refused, again
+    if (care.finer > 1) {
       workshop.tighten(care.margin, care.finer);
-      for (Candidate& candidate : found) workshop.settle(candidate, "what the certificate refused");
+      for (Candidate& candidate : found) workshop.mend(candidate, "what the certificate refused");
       std::stable_sort(found.begin(), found.end(), before);
     }
-    std::vector<Candidate> refused;
-    const std::optional<Candidate> best = certified(found, out, refused);
-    if (best) {
-      out.figure = workshop.figure(*best);
-      out.prices = prices(workshop, *best);
-      break;
-    }
-    found = std::move(refused);
-    if (found.empty() || workshop.stopped()) break;
+    found = desk.judge(found);
+    if (found.empty() || (desk.best() && workshop.stopped())) break;
   }
+  if (desk.best()) out.prices = prices(workshop, *desk.best());
   if (!out.plan && nearest && !nearest->meets()) out.conflict = conflict(workshop, *nearest);
   out.interrupted = workshop.stopped();
   return out;

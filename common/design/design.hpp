@@ -6,8 +6,8 @@
 //   the best that the certificate admits                                                       (exact, for all time)
 //
 // The search looks at samples; the certificate decides. What it refuses is searched again with a wider margin. A
-// family's motion is kept where the whole is no better by more than half a percent: it is simpler, and what its phases
-// give exactly, such as constant speed, it has exactly.
+// family's motion is kept where the whole is better by less than half a percent, or five of an effort, whose weights
+// nobody knows better: it is simpler, and what its phases give exactly, such as constant speed, it has exactly.
 //
 // The same requirements and seed give the same design, if nobody interrupts.
 //

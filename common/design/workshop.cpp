@@ -128,6 +128,13 @@ void Workshop::settle(Candidate& candidate, const std::string& doing) {
   note(candidate);
 }
 
+void Workshop::mend(Candidate& candidate, const std::string& doing) {
+  Search search = search_of(candidate, doing, samples());
+  search.keep_going = nullptr;
+  candidate.point = meet(search, candidate.point.x, 2);
+  if (!stopped_) settle(candidate, doing);
+}
+
 std::vector<double> Workshop::residuals(const Candidate& candidate) const {
   SampledMotion motion(candidate.start.plan, candidate.unknowns, samples());
   motion.evaluate(candidate.point.x);

@@ -61,6 +61,8 @@ class Workshop {
   [[nodiscard]] Candidate whole(const Candidate& from, double shaken, RandomStream& stream);
   /// Meets and improves a candidate from where it is.
   void settle(Candidate& candidate, const std::string& doing);
+  /// Meets what was all but met, though it is time to end, and improves it if it is not.
+  void mend(Candidate& candidate, const std::string& doing);
   /// Only meets.
   void meet_demands(Candidate& candidate, const std::string& doing);
 

@@ -51,17 +51,24 @@ class Watch {
   bool going_ = true;
 };
 
-/// Beside its name and then in its place, so that nobody reads half of it.
+/// Beside its name and then in its place, so that nobody reads half of it; into what is no file, such as a device, as
+/// is.
 bool write_file(const std::string& path, const std::string& content) {
-  const std::string beside = path + ".part";
-  std::ofstream file(beside, std::ios::binary);
+  namespace fs = std::filesystem;
+  std::error_code failure;
+  const bool in_place = fs::exists(path, failure) && !fs::is_regular_file(path, failure);
+  const std::string target = in_place ? path : path + ".part";
+  std::ofstream file(target, std::ios::binary);
   file << content;
   file.close();
-  std::error_code failure;
-  if (file) std::filesystem::rename(beside, path, failure);
-  if (file && !failure) return true;
+  bool written = !file.fail();
+  if (written && !in_place) {
+    fs::rename(target, path, failure);
+    written = !failure;
+  }
+  if (written) return true;
   std::fprintf(stderr, "%s: cannot be written; give a file in a folder that is there: -o MISSION\n", path.c_str());
-  std::filesystem::remove(beside, failure);
+  if (!in_place) fs::remove(target, failure);
   return false;
 }
 

@@ -14,9 +14,10 @@ using Vector = Eigen::VectorXd;
 using Gradients = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr int kRounds = 12;
-constexpr int kSteps = 60;               // of one round
-constexpr double kNear = 0.3;            // rows with more than this to spare are left out
-constexpr std::size_t kMostRows = 1000;  // of one round
+// Of one round. A step costs rows times variables squared, so that what has many variables gets fewer of both.
+constexpr int kSteps = 60, kFewestSteps = 15, kStepsOfAll = 3000;
+constexpr double kNear = 0.3;  // rows with more than this to spare are left out
+constexpr int kRows = 1000, kFewestRows = 300, kRowsOfAll = 50000;
 constexpr double kFirstReach = 0.5;  // how far a round may go, as a share of each variable, or of 1 where it is less
 constexpr double kMostReach = 2.0;
 constexpr double kLeastReach = 5e-3;
@@ -29,11 +30,11 @@ class Round {
  public:
   Round(const Search& search, Goal goal, SampledMotion& motion, const Judge& judge, std::vector<Judged> rows)
       : search_(search), goal_(goal), motion_(motion), judge_(judge), rows_(std::move(rows)) {
-    // The limit of a raised demand is a variable: its rows count in any case.
-    if (rows_.size() > kMostRows) {
-      std::nth_element(rows_.begin(), rows_.begin() + kMostRows, rows_.end(),
+    const int most = shared(kRowsOfAll, kFewestRows, kRows);
+    if (rows_.size() > static_cast<std::size_t>(most)) {
+      std::nth_element(rows_.begin(), rows_.begin() + most, rows_.end(),
                        [](const Judged& a, const Judged& b) { return a.residual > b.residual; });
-      rows_.resize(kMostRows);
+      rows_.resize(static_cast<std::size_t>(most));
     }
   }
 
@@ -58,7 +59,7 @@ class Round {
     const std::vector<double> tolerances(rows_.size(), 0.1 * search_.margin);
     nlopt_add_inequality_mconstraint(opt_, static_cast<unsigned>(rows_.size()), &Round::constraints, this,
                                      tolerances.data());
-    nlopt_set_maxeval(opt_, kSteps);
+    nlopt_set_maxeval(opt_, shared(kStepsOfAll, kFewestSteps, kSteps));
     // Only by x: a search along a line that has to turn back at first changes the cost by nothing, and is not at its
     // end.
     nlopt_set_xtol_rel(opt_, 1e-12);
@@ -70,6 +71,11 @@ class Round {
   }
 
  private:
+  /// So much for all variables together, within bounds.
+  [[nodiscard]] int shared(int all, int fewest, int most) const {
+    return std::clamp(all / std::max(1, static_cast<int>(search_.unknowns.start.size())), fewest, most);
+  }
+
   static double cost(unsigned n, const double* x, double* gradient, void* round) {
     auto& self = *static_cast<Round*>(round);
     const Eigen::Map<const Vector> at(x, n);

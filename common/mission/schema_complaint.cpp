@@ -49,11 +49,19 @@ std::string unknown_field(const std::string& parser_message, const std::string& 
   return field + ": no such field; the fields here are " + listed(names);
 }
 
-std::string ways_on_silence() {
+std::string listed(const google::protobuf::EnumDescriptor& values) {
   std::vector<std::string> names;
-  const auto* ways = schema::Vehicle::OnSilence_descriptor();
-  for (int i = 0; i < ways->value_count(); ++i) names.push_back(ways->value(i)->name());
+  for (int i = 0; i < values.value_count(); ++i) names.push_back(values.value(i)->name());
   return listed(names);
+}
+
+/// What a field with an enumeration may say; the parser tells its name only.
+std::string values_of(const std::string& field) {
+  for (const auto* values : {schema::Vehicle::OnSilence_descriptor(), schema::Want::Objective_descriptor()}) {
+    const auto* owner = values->containing_type()->FindFieldByName(field);
+    if (owner != nullptr && owner->enum_type() == values) return listed(*values);
+  }
+  return "the values that the schema has";
 }
 
 }  // namespace
@@ -62,11 +70,11 @@ std::string with_cure(const std::string& parser_message) {
   constexpr std::size_t kMaxMessageBytes = 400;  // std::regex recurses per character
   if (parser_message.size() > kMaxMessageBytes) return parser_message;
   static const std::regex kUnknownField(R"re(Message type "([\w.]+)" has no field named "(\w+)"\.)re");
-  static const std::regex kUnknownWay(R"re(Unknown enumeration value of (.*) for field "on_silence"\.)re");
+  static const std::regex kUnknownValue(R"re(Unknown enumeration value of (.*) for field "(\w+)"\.)re");
   std::smatch match;
   if (std::regex_match(parser_message, match, kUnknownField)) return unknown_field(parser_message, match[1], match[2]);
-  if (std::regex_match(parser_message, match, kUnknownWay)) {
-    return "on_silence: is " + match.str(1) + "; give one of " + ways_on_silence();
+  if (std::regex_match(parser_message, match, kUnknownValue)) {
+    return match.str(2) + ": is " + match.str(1) + "; give one of " + values_of(match[2]);
   }
   if (parser_message == "Expected identifier, got: ") return "the file ends inside a block; close every { with a }";
   return parser_message;

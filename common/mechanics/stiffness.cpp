@@ -24,8 +24,8 @@ void add_stiffness(const Cable& c, const Reference& reference, const Eigen::Vect
   k_load.topLeftCorner<3, 3>() += held;
   k_load.topRightCorner<3, 3>() += coupled;
   k_load.bottomLeftCorner<3, 3>() += coupled.transpose();
-  k_load.bottomRightCorner<3, 3>() += turn.transpose() * coupled + f.dot(r_w_m) * Eigen::Matrix3d::Identity() -
-                                      0.5 * (moment + moment.transpose());
+  k_load.bottomRightCorner<3, 3>() +=
+      turn.transpose() * coupled + f.dot(r_w_m) * Eigen::Matrix3d::Identity() - 0.5 * (moment + moment.transpose());
 }
 
 Matrix6d load_stiffness(const Plan& plan, const std::vector<CarrierSlice>& slices, double t_s) {

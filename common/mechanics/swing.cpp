@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "common/base/angle.hpp"
-#include "common/mechanics/floquet.hpp"
 #include "common/mechanics/reference.hpp"
 #include "common/mechanics/stiffness.hpp"
 
@@ -15,29 +15,14 @@ namespace {
 
 /// Of the paces from rest to 1.
 constexpr int kPaces = 25;
-/// Of the fastest pendulum swing, in a step [rad].
-constexpr double kStepAngle = 0.8;
-constexpr std::size_t kStepsPerTurn = 64;
+/// Of the fastest pendulum swing, in a step [rad]: to begin with.
+constexpr double kFirstStepAngle = 1.6;
+/// Of two answers, by steps and by their halves.
+constexpr double kAgree = 0.05;
+constexpr std::size_t kStepsPerTurn = 48;
 constexpr std::size_t kMaxSteps = 8192;
 /// Twice the softest swing's frequency in the motion's, from which on no resonance is looked for.
 constexpr double kQuasiStatic = 10.0;
-
-LinearMoment linear_moment(const Plan& plan, const std::vector<CarrierSlice>& slices, double t_s) {
-  LinearMoment moment;
-  for (const CarrierSlice& slice : slices) {
-    const Reference reference = evaluate(slice, t_s);
-    const Eigen::Vector3d r = slice.attachment_w_m - plan.load.position_w_m;
-    add_stiffness(plan.cable, reference, r, moment.stiffness);
-    const TaylorVector<double>& q = reference.direction_w;
-    Eigen::Matrix<double, 6, 1> along;  // J' q
-    along << q.value, r.cross(q.value);
-    Eigen::Matrix<double, 6, 1> turning;  // J' q˙
-    turning << q.first, r.cross(q.first);
-    moment.damping += plan.cable.damping_n_s_m * along * along.transpose();
-    moment.circulation += plan.cable.damping_n_s_m * along * turning.transpose();
-  }
-  return moment;
-}
 
 Matrix6d inertia_of(Load load, double factor) {
   load.inertia_b_kg_m2 *= factor;
@@ -60,7 +45,9 @@ class LinearMotion {
     Plan slack = plan_;
     slack.cable.stiffness_n_m = 0.0;
     const Matrix6d inertia = load_inertia(plan_.load);
-    const std::size_t looks = 32 * turns();
+    constexpr std::size_t kLooksPerTurn = 32;
+    constexpr std::size_t kTurns = 16;  // laws whose harmonics hardly ever meet again are not followed to the end
+    const std::size_t looks = kLooksPerTurn * std::min(turns(), kTurns);
     double greatest = 0.0;
     for (std::size_t i = 0; i < looks; ++i) {
       const double t_s = period_s_ * static_cast<double>(i) / static_cast<double>(looks);
@@ -99,11 +86,21 @@ class LinearMotion {
 class SwingLook {
  public:
   SwingLook(const Plan& plan, const std::vector<CarrierSlice>& slices, double period_s, double stiffness_min_1_s2)
-      : motion_(plan, slices, period_s),
-        stiffness_min_1_s2_(stiffness_min_1_s2),
-        rate_rad_s_(plan.cycle.rate_rad_s),
-        base_steps_(std::max(static_cast<double>(kStepsPerTurn * motion_.turns()),
-                             std::ceil(period_s * motion_.pendulum_rad_s() / kStepAngle))) {}
+      : motion_(plan, slices, period_s), stiffness_min_1_s2_(stiffness_min_1_s2), rate_rad_s_(plan.cycle.rate_rad_s) {
+    steps_ = std::max(static_cast<double>(kStepsPerTurn * motion_.turns()),
+                      std::ceil(period_s * motion_.pendulum_rad_s() / kFirstStepAngle));
+    // Halved until that makes no difference any more; it makes 32 times less each time.
+    own_1_s_ = growth(1.0);
+    for (double coarser = 0.0; steps_ < kMaxSteps;) {
+      steps_ *= 2.0;
+      coarser = std::exchange(own_1_s_, growth(1.0));
+      if (std::abs(own_1_s_ - coarser) > kNeutralGrowth_1_s + kAgree * std::abs(own_1_s_)) continue;
+      steps_ /= 2.0;  // they were enough
+      break;
+    }
+  }
+
+  [[nodiscard]] double own_1_s() const { return own_1_s_; }
 
   /// So slow that it is a sequence of rests.
   [[nodiscard]] bool slow(double pace) const {
@@ -115,9 +112,9 @@ class SwingLook {
 
   [[nodiscard]] double growth(double pace, double inertia_factor = 1.0) {
     // Doubled where the pace halves, so that few tables of moments serve all paces.
-    const double needed = base_steps_ * std::exp2(std::ceil(std::log2(1.0 / pace) - 0.5));
-    // A motion that takes more to follow and holds the load, if only by its cables' length, is as good as a rest; of
-    // another one, only the fastest swings are followed too coarsely, and damped.
+    const double needed = steps_ * std::exp2(std::ceil(std::log2(1.0 / pace) - 0.5));
+    // A motion that takes more to follow is as good as a rest, if it is slow or does not hold the load by itself; of
+    // another one only the fastest swings are followed too coarsely, and damped.
     if (needed > kMaxSteps && (slow(pace) || stiffness_min_1_s2_ <= 0.0)) return at_rest();
     const auto steps = static_cast<std::size_t>(std::min<double>(needed, kMaxSteps));
     return motion_.growth({pace, inertia_factor, steps});
@@ -127,10 +124,28 @@ class SwingLook {
   LinearMotion motion_;
   double stiffness_min_1_s2_;
   double rate_rad_s_;
-  double base_steps_;
+  double steps_ = 0.0;  ///< at full pace
+  double own_1_s_ = 0.0;
 };
 
 }  // namespace
+
+LinearMoment linear_moment(const Plan& plan, const std::vector<CarrierSlice>& slices, double t_s) {
+  LinearMoment moment;
+  for (const CarrierSlice& slice : slices) {
+    const Reference reference = evaluate(slice, t_s);
+    const Eigen::Vector3d r = slice.attachment_w_m - plan.load.position_w_m;
+    add_stiffness(plan.cable, reference, r, moment.stiffness);
+    const TaylorVector<double>& q = reference.direction_w;
+    Eigen::Matrix<double, 6, 1> along;  // J' q
+    along << q.value, r.cross(q.value);
+    Eigen::Matrix<double, 6, 1> turning;  // J' q˙
+    turning << q.first, r.cross(q.first);
+    moment.damping += plan.cable.damping_n_s_m * along * along.transpose();
+    moment.circulation += plan.cable.damping_n_s_m * along * turning.transpose();
+  }
+  return moment;
+}
 
 double Swings::growth_at(double pace) const {
   if (paces.empty()) return growth_1_s;
@@ -144,7 +159,7 @@ double Swings::growth_at(double pace) const {
 Swings swings(const Plan& plan, const std::vector<CarrierSlice>& slices, double period_s, double stiffness_min_1_s2) {
   SwingLook look(plan, slices, period_s, stiffness_min_1_s2);
   Swings out;
-  out.growth_1_s = look.growth(1.0);
+  out.growth_1_s = look.own_1_s();
   out.worst_1_s = out.growth_1_s;
   out.paces.push_back({0.0, look.at_rest()});
   if (!look.slow(1.0)) {

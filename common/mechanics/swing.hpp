@@ -29,6 +29,7 @@
 #include <vector>
 
 #include "common/mechanics/carrier_slice.hpp"
+#include "common/mechanics/floquet.hpp"
 #include "common/mechanics/plan.hpp"
 
 namespace gyre::mechanics {
@@ -57,6 +58,9 @@ inline constexpr double kNeutralGrowth_1_s = 1e-4;
 /// Of a plan whose cables are taut and longer than nothing. `period_s` and `stiffness_min_1_s2` as in the certificate.
 [[nodiscard]] Swings swings(const Plan& plan, const std::vector<CarrierSlice>& slices, double period_s,
                             double stiffness_min_1_s2);
+
+/// K, sum c J' q q' J and sum c J' q q˙' J at one moment, `t_s` since the plan's epoch at full pace.
+[[nodiscard]] LinearMoment linear_moment(const Plan& plan, const std::vector<CarrierSlice>& slices, double t_s);
 
 /// The growth at one pace, with moments of inertia so many times the load's, by so many steps a period [1/s].
 struct SwingCase {

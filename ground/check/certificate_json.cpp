@@ -50,6 +50,15 @@ Json carrier_json(const mechanics::CarrierFigures& carrier) {
           {"direction_cosine_min", figure(carrier.direction_cosine_min)}};
 }
 
+Json paces_json(const std::optional<mechanics::Swings>& swings) {
+  if (!swings) return nullptr;
+  Json out = Json::array();
+  for (const mechanics::PaceGrowth& p : swings->paces) {
+    out.push_back({{"pace", p.pace}, {"growth_1_s", figure(p.growth_1_s)}});
+  }
+  return out;
+}
+
 }  // namespace
 
 Json certificate_json(const std::string& mission_name, const mechanics::Certificate& certificate,
@@ -73,6 +82,9 @@ Json certificate_json(const std::string& mission_name, const mechanics::Certific
           {"carrier_separation_min_m", figure(separation, &mechanics::Separation::min_m)},
           {"carrier_separation_pair", separation ? Json{separation->first, separation->second} : Json(nullptr)},
           {"stiffness_min_1_s2", figure(certificate.stiffness_min_1_s2)},
+          {"swing_growth_1_s", figure(certificate.swings, &mechanics::Swings::growth_1_s)},
+          {"swing_growth_worst_1_s", figure(certificate.swings, &mechanics::Swings::worst_1_s)},
+          {"swing_paces", paces_json(certificate.swings)},
           {"carriers", carriers}};
 }
 

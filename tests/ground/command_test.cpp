@@ -34,7 +34,8 @@ TEST(Check, JsonKeepsItsContract) {
   const Json json = Json::parse(answer.output);
   EXPECT_EQ(json.at("verdict"), "admissible");
   EXPECT_TRUE(json.at("reasons").empty());
-  for (const char* key : {"period_s", "wrench_error_max_n", "carrier_separation_min_m", "stiffness_min_1_s2"}) {
+  for (const char* key : {"period_s", "wrench_error_max_n", "carrier_separation_min_m", "stiffness_min_1_s2",
+                          "swing_growth_1_s", "swing_growth_worst_1_s"}) {
     EXPECT_TRUE(json.at(key).is_number()) << key;
   }
   ASSERT_EQ(json.at("carriers").size(), 3u);

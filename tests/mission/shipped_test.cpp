@@ -42,12 +42,18 @@ TEST(Shipped, EveryFileIsInTheList) {
 TEST(Shipped, TheVerdictsAreTheIntendedOnes) {
   for (const std::string& name : kShippedMissions) {
     const mechanics::Certificate certificate = certified(name);
-    const bool meant_to_be_refused = name == "single" || name == "pair-level";
+    const bool swings = name == "pair-unrestricted" || name == "fixed-wing-trio";
+    const bool meant_to_be_refused = name == "single" || name == "pair-level" || swings;
     EXPECT_EQ(certificate.admissible(), !meant_to_be_refused)
         << name << ": " << (certificate.reasons.empty() ? "" : certificate.reasons.front().text);
   }
   EXPECT_TRUE(broken(certified("single"), mechanics::Rule::kOneCarrierImpossibility));
   EXPECT_TRUE(broken(certified("pair-level"), mechanics::Rule::kTwoCarrierObstruction));
+  for (const char* grows : {"pair-unrestricted", "fixed-wing-trio"}) {
+    const mechanics::Certificate certificate = certified(grows);
+    ASSERT_EQ(certificate.reasons.size(), 1u) << grows;
+    EXPECT_TRUE(broken(certificate, mechanics::Rule::kSwing)) << grows;
+  }
 }
 
 TEST(Shipped, OnlyWhatCannotStopOrIsMeantToEndureFliesOnInSilence) {

@@ -21,6 +21,7 @@
 #include "common/mechanics/plan.hpp"
 #include "common/mechanics/range.hpp"
 #include "common/mechanics/skew.hpp"
+#include "common/mechanics/swing.hpp"
 
 namespace gyre::mechanics {
 
@@ -45,6 +46,7 @@ enum class Rule {
   kBraid,
   kClearance,
   kStiffness,
+  kSwing,
 };
 
 /// The rule as a person reads it, in the paper's words: "two-carrier obstruction".
@@ -91,8 +93,8 @@ struct Approach {
 
 struct Certificate {
   std::vector<Reason> reasons;
-  /// What breaks no rule but deserves a look. A stiffness that is negative at some moments is here: the stability of a
-  /// motion is decided over its whole period, and passing moments alone do not decide it.
+  /// What breaks no rule but deserves a look. A stiffness that is negative at some moments is here, because a swing's
+  /// fate is decided over whole periods; and so are paces at which a swing grows, because they are passed.
   std::vector<Reason> cautions;
   double period_s = std::numeric_limits<double>::infinity();
   double wrench_error_max_n = std::numeric_limits<double>::infinity();
@@ -108,6 +110,7 @@ struct Certificate {
   /// Absent: left out, or a cable has no positive, bounded length at some moment.
   std::optional<double> stiffness_min_1_s2;
   std::optional<SkewBudget> skew;        ///< absent where the stiffness is: a displacement follows from it
+  std::optional<Swings> swings;          ///< absent where the stiffness is, left out, or a cable goes slack
   std::vector<CarrierFigures> carriers;  ///< in the plan's order
 
   [[nodiscard]] bool admissible() const { return reasons.empty(); }
@@ -118,6 +121,7 @@ struct CertifyOptions {
   bool separation = true;  ///< and all that must not touch
   bool stiffness = true;   ///< and the skew budget
   bool non_stop = true;    ///< off for a plan that is meant to stand still
+  bool swings = true;      ///< where the stiffness is; they cost more than all the rest
 };
 
 /// Of any plan, whatever is in it: nothing here asks that it be valid.

@@ -43,4 +43,13 @@ void judge_clearance(const Approach& clearance, const Limits& limits, std::vecto
 /// Vehicles below the load's highest corner, or closer to it than the limit.
 void judge_above_load(double above_load_min_m, const Limits& limits, std::vector<Reason>& reasons);
 
+/// A swing of the load dies out, or at least does not grow, in full motion, with some margin.
+void judge_swings(const Swings& swings, std::vector<Reason>& reasons);
+
+/// At which paces, on the way from rest, one grows.
+void caution_of_swings(const Swings& swings, std::vector<Reason>& cautions);
+
+/// That the load is not pulled back at some moments.
+void caution_of_stiffness(double stiffness_min_1_s2, std::vector<Reason>& cautions);
+
 }  // namespace gyre::mechanics

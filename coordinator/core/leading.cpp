@@ -183,6 +183,10 @@ std::optional<std::string> Leading::command_obstacle(LocalTime now, const protoc
       if (auto why = too_slow(command.pace, job_.plan.limits, plans_.figures(protocol::plans_of(course_).back()))) {
         return why;
       }
+      // A plan learned from the agents came without its certificate.
+      if (protocol::plans_of(course_).back() == plan_) {
+        if (auto why = swing_grows(command.pace, job_.swings)) return why;
+      }
       if (safe && course_.wish.pace == command.pace && !course_.wish.rest_when_changed && target == command.pace) {
         return "already at that pace";
       }
@@ -252,6 +256,7 @@ void Leading::retune(LocalTime now, const Retune& retune, Outputs& out) {
     return refuse("too many transitions are under way; wait until they are complete");
   }
   if (const auto why = load_obstacle(job_.plan, retune.job.value().plan)) return refuse(*why);
+  if (const auto why = swing_grows(course_.pace.target(), retune.job.value().swings)) return refuse(*why);
   before_retune_ = Mission{job_, plan_};
   job_ = retune.job.value();
   plan_ = plans_.add(term_, by_carrier(mechanics::slices(job_.plan)), "motion");

@@ -94,4 +94,13 @@ std::optional<std::string> too_slow(double pace, const mechanics::Limits& limits
   return std::nullopt;
 }
 
+std::optional<std::string> swing_grows(double pace, const std::optional<mechanics::Swings>& swings) {
+  if (!swings || pace <= 0.0 || pace >= 1.0) return std::nullopt;
+  const double growth_1_s = swings->growth_at(pace);
+  if (growth_1_s <= mechanics::kNeutralGrowth_1_s) return std::nullopt;
+  return text(
+      "at %.3g of full pace a swing of the load grows by up to %.2g/s: it may be passed, and nobody stays there", pace,
+      growth_1_s);
+}
+
 }  // namespace gyre::coordinator

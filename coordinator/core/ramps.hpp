@@ -47,4 +47,7 @@ struct RampWish {
 [[nodiscard]] std::optional<std::string> too_slow(double pace, const mechanics::Limits& limits,
                                                   const std::vector<mechanics::CarrierFigures>& figures);
 
+/// Whether a swing of the load would grow at this pace, for good. On the way it may: a ramp is soon over.
+[[nodiscard]] std::optional<std::string> swing_grows(double pace, const std::optional<mechanics::Swings>& swings);
+
 }  // namespace gyre::coordinator

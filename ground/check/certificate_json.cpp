@@ -56,6 +56,15 @@ Json carrier_json(const mechanics::CarrierFigures& carrier) {
           {"direction_cosine_min", figure(carrier.direction_cosine_min)}};
 }
 
+Json paces_json(const std::optional<mechanics::Swings>& swings) {
+  if (!swings) return nullptr;
+  Json out = Json::array();
+  for (const mechanics::PaceGrowth& p : swings->paces) {
+    out.push_back({{"pace", p.pace}, {"growth_1_s", figure(p.growth_1_s)}});
+  }
+  return out;
+}
+
 }  // namespace
 
 Json certificate_json(const std::string& mission_name, const mechanics::Certificate& certificate,
@@ -87,6 +96,9 @@ Json certificate_json(const std::string& mission_name, const mechanics::Certific
           {"clearance_at_s", figure(clearance, &mechanics::Approach::at_s)},
           {"above_load_min_m", figure(certificate.above_load_min_m)},
           {"stiffness_min_1_s2", figure(certificate.stiffness_min_1_s2)},
+          {"swing_growth_1_s", figure(certificate.swings, &mechanics::Swings::growth_1_s)},
+          {"swing_growth_worst_1_s", figure(certificate.swings, &mechanics::Swings::worst_1_s)},
+          {"swing_paces", paces_json(certificate.swings)},
           {"carriers", carriers}};
 }
 

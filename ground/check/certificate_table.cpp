@@ -113,6 +113,20 @@ std::string stiffness_line(const std::optional<double>& stiffness_min_1_s2) {
   return stiffness_min_1_s2 ? number_text(*stiffness_min_1_s2) + " 1/s^2 at its softest" : "-";
 }
 
+std::string growth_text(double growth_1_s) {
+  if (growth_1_s > mechanics::kNeutralGrowth_1_s) return "one grows by " + number_text(growth_1_s) + " 1/s";
+  if (growth_1_s < -mechanics::kNeutralGrowth_1_s)
+    return "all die out, the slowest by " + number_text(-growth_1_s) + " 1/s";
+  return "none grows, and one goes on for hours";
+}
+
+std::string swing_line(const std::optional<mechanics::Swings>& swings) {
+  if (!swings) return "-";
+  const std::string margin = text("; within %.0f %% of rate and inertia ", 100.0 * mechanics::kSwingMargin);
+  return marked(growth_text(swings->growth_1_s) + margin + growth_text(swings->worst_1_s),
+                swings->worst_1_s > mechanics::kNeutralGrowth_1_s);
+}
+
 std::string skew_line(const std::optional<mechanics::SkewBudget>& budget) {
   if (!budget) return "-";
   const mechanics::SkewBudget& skew = *budget;
@@ -148,6 +162,7 @@ std::string certificate_table(const std::string& mission_name, const Limits& lim
   out += "  clearance          " + clearance_line(limits, certificate) + "\n";
   out += "  wrench error       " + text("%.2g", certificate.wrench_error_max_n) + " N at most\n";
   out += "  load stiffness     " + stiffness_line(certificate.stiffness_min_1_s2) + "\n";
+  out += "  swings             " + swing_line(certificate.swings) + "\n";
   out += "  clock skew         " + skew_line(certificate.skew) + "\n";
   out += "  silence            " + silence_line(silence, certificate.skew) + "\n";
   if (!certificate.admissible()) out += "\nWhy, and what would cure it:\n" + listed(certificate.reasons);

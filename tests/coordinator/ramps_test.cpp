@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/coordinator/jobs.hpp"
+
 namespace gyre::coordinator {
 namespace {
 
@@ -88,6 +90,16 @@ TEST(Ramps, LeaveNobodyTooSlowForGood) {
   EXPECT_FALSE(too_slow(0.9, least, figures));
   EXPECT_FALSE(too_slow(0.0, least, figures)) << "rest is no flight";
   EXPECT_FALSE(too_slow(0.7, {}, figures));
+}
+
+TEST(Ramps, EndAtNoPaceAtWhichASwingGrows) {
+  const std::optional<mechanics::Swings> swings = test::swinging({}).swings;
+  EXPECT_TRUE(swing_grows(0.7, swings));
+  EXPECT_TRUE(swing_grows(0.3, swings)) << "nobody looked between rest and 0.6";
+  EXPECT_FALSE(swing_grows(0.95, swings));
+  EXPECT_FALSE(swing_grows(0.0, swings)) << "rest is no motion";
+  EXPECT_FALSE(swing_grows(1.0, swings)) << "its certificate has judged it";
+  EXPECT_FALSE(swing_grows(0.7, std::nullopt));
 }
 
 }  // namespace

@@ -83,7 +83,8 @@ TEST(Table, EveryRuleIsNamedWithItsText) {
 
 TEST(Table, WhatWasNotComputedIsADash) {
   mechanics::Certificate certificate = one_bad_carrier();
-  for (const char* line : {"  separation ", "  cables apart ", "  clearance ", "  load stiffness ", "  clock skew "}) {
+  for (const char* line :
+       {"  separation ", "  cables apart ", "  clearance ", "  load stiffness ", "  swings ", "  clock skew "}) {
     const std::string dash = line_of(certificate_table("m", {}, certificate, kStop), line);
     EXPECT_EQ(dash.find_first_not_of(' ', std::string(line).size()), dash.size() - 1) << dash;
     EXPECT_EQ(dash.back(), '-') << dash;
@@ -104,6 +105,21 @@ TEST(Table, WhatWasNotComputedIsADash) {
             std::string::npos);
   EXPECT_NE(line_of(table, "  load stiffness ").find("1.5 1/s^2"), std::string::npos) << table;
   EXPECT_NE(line_of(table, "  clock skew ").find("up to 500 ms"), std::string::npos) << table;
+}
+
+TEST(Table, SwingsAreToldAsTheyAreAndWithAMargin) {
+  mechanics::Certificate certificate = one_bad_carrier();
+  const auto line = [&](double growth_1_s, double worst_1_s) {
+    certificate.swings = mechanics::Swings{growth_1_s, worst_1_s, {}};
+    return line_of(certificate_table("m", {}, certificate, kStop), "  swings ");
+  };
+  EXPECT_EQ(
+      line(-0.02, -0.01),
+      "  swings             all die out, the slowest by 0.02 1/s; within 5 % of rate and inertia all die out, the "
+      "slowest by 0.01 1/s");
+  EXPECT_EQ(line(-1e-5, 0.2),
+            "  swings             none grows, and one goes on for hours; within 5 % of rate and inertia one grows by "
+            "0.2 1/s !");
 }
 
 TEST(Table, ToldWhatSilenceDoesAndHowLongFlyingOnIsGood) {
@@ -135,7 +151,8 @@ TEST(Json, WhatIsInfiniteOrAbsentIsNull) {
   for (const char* key :
        {"carrier_separation_min_m", "carrier_separation_pair", "cable_distance_min_m", "cable_distance_pair",
         "clearance_min_m", "clearance_of", "clearance_pair", "clearance_at_s", "above_load_min_m", "stiffness_min_1_s2",
-        "skew_budget_s", "skew_residual_n_per_s", "skew_displacement_m_per_s", "holdover_s"}) {
+        "swing_growth_1_s", "swing_growth_worst_1_s", "swing_paces", "skew_budget_s", "skew_residual_n_per_s",
+        "skew_displacement_m_per_s", "holdover_s"}) {
     EXPECT_TRUE(json.at(key).is_null()) << key;
   }
   const auto& carrier = json.at("carriers")[0];
@@ -144,6 +161,17 @@ TEST(Json, WhatIsInfiniteOrAbsentIsNull) {
   EXPECT_TRUE(carrier.at("speed_max_m_s").is_null());
   EXPECT_TRUE(carrier.at("direction_cosine_min").is_null());
   EXPECT_EQ(carrier.at("winch_rate_max_m_s"), 0.75);  // reeling in counts as much as paying out
+}
+
+TEST(Json, HasTheGrowthAtEveryPaceThatWasLookedAt) {
+  mechanics::Certificate certificate = one_bad_carrier();
+  certificate.swings = mechanics::Swings{-0.5, 0.25, {{0.0, 0.0}, {0.75, 0.125}, {1.0, -0.5}}};
+  const nlohmann::ordered_json json = certificate_json("m", certificate, kStop);
+  EXPECT_EQ(json.at("swing_growth_1_s"), -0.5);
+  EXPECT_EQ(json.at("swing_growth_worst_1_s"), 0.25);
+  ASSERT_EQ(json.at("swing_paces").size(), 3U);
+  EXPECT_EQ(json.at("swing_paces")[1].at("pace"), 0.75);
+  EXPECT_EQ(json.at("swing_paces")[1].at("growth_1_s"), 0.125);
 }
 
 TEST(Csv, NumbersReadBackToTheSameBits) {

@@ -192,7 +192,11 @@ class GyreFlight {
   };
 
   static gyre::coordinator::Job job(const gyre::mission::Mission& mission) {
-    return {mission.name, mission.plan, std::nullopt, mission.silence};
+    gyre::coordinator::Job job;
+    job.name = mission.name;
+    job.plan = mission.plan;
+    job.silence = mission.silence;
+    return job;
   }
   static gyre::coordinator::CoordinatorOptions options() {
     gyre::coordinator::CoordinatorOptions options;

@@ -22,7 +22,7 @@ constexpr double kAgree = 0.05;
 constexpr std::size_t kStepsPerTurn = 48;
 constexpr std::size_t kMaxSteps = 8192;
 /// Twice the softest swing's frequency in the motion's, from which on no resonance is looked for.
-constexpr double kQuasiStatic = 24.0;
+constexpr double kQuasiStatic = 28.0;
 
 Matrix6d inertia_of(Load load, double factor) {
   load.inertia_b_kg_m2 *= factor;

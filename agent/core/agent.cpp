@@ -29,7 +29,7 @@ MergeLimits merge_limits(const mechanics::Limits& vehicle) {
 }
 
 Command command_of(const mechanics::Reference& r, double stiffness_n_m) {
-  return {r.position_w_m, protocol::winch_length(r, stiffness_n_m)};
+  return {r.position_w_m, mechanics::paid_out(r, stiffness_n_m)};
 }
 
 }  // namespace

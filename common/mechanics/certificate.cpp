@@ -59,10 +59,12 @@ Certificate certify(const Plan& plan, const CertifyOptions& options) {
   certificate.carriers.reserve(all.size());
   bool stretched = true;  // lengths are positive and bounded, as stiffness needs them
   for (const CarrierSlice& slice : all) {
-    certificate.carriers.push_back(orbit_figures(slice));
+    const Carrier& carrier = plan.carriers[certificate.carriers.size()];
+    certificate.carriers.push_back(orbit_figures(slice, weight(carrier.vehicle, plan.gravity_m_s2)));
     const Range& length = certificate.carriers.back().length_m;
     stretched = stretched && length.min > 0.0 && std::isfinite(length.max);
     judge_carrier(certificate.carriers.back(), plan.limits, options.non_stop, certificate.reasons);
+    judge_machines(certificate.carriers.back(), plan.winch, carrier.vehicle, certificate.reasons);
   }
   if (options.separation) certificate.separation = orbit_separation(all, certificate);
   if (options.stiffness && stretched) {

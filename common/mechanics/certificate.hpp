@@ -39,8 +39,11 @@ enum class Rule {
   kDirectionCosine,
   kLengthBounds,
   kWinchRate,
+  kWinch,
   kSpeed,
   kAcceleration,
+  kThrust,
+  kBank,
   kSeparation,
   kStiffness,
 };
@@ -54,7 +57,20 @@ struct Reason {
   std::string text;
 };
 
-/// Extremes over all time, outward of the true ones by rounding only.
+/// A vehicle as far as what it has to pull depends on it.
+struct VehicleWeight {
+  double mass_kg = 0.0;
+  double gravity_m_s2 = 0.0;
+};
+
+/// Absent: the vehicle's mass is not known.
+[[nodiscard]] inline std::optional<VehicleWeight> weight(const Vehicle& vehicle, double gravity_m_s2) {
+  if (!vehicle.mass_kg) return std::nullopt;
+  return VehicleWeight{*vehicle.mass_kg, gravity_m_s2};
+}
+
+/// Extremes over all time, outward of the true ones by rounding only; where they are proven bounds, what computes them
+/// says so.
 struct CarrierFigures {
   CarrierId id = 0;
   Range tension_n;
@@ -66,8 +82,15 @@ struct CarrierFigures {
   Range vertical_cosine;  ///< q_z
   /// min |u·q| of a projection law; absent for sine and fixed, which have no u.
   std::optional<double> direction_cosine_min;
+  Range paid_out_m;  ///< l − s/k: what the winch has out; l where stretch is not compensated
+  Range paid_out_rate_m_s;
+  double winch_acceleration_max_m_s2 = 0.0;  ///< of what is paid out
+  /// What the vehicle pulls, m (a + g e_z) + f, and its greatest angle from the vertical; absent: its mass is not
+  /// known.
+  std::optional<double> thrust_max_n, bank_max_rad;
 
   [[nodiscard]] double winch_rate_max_m_s() const { return std::max(winch_rate_m_s.max, -winch_rate_m_s.min); }
+  [[nodiscard]] double paid_out_rate_max_m_s() const { return std::max(paid_out_rate_m_s.max, -paid_out_rate_m_s.min); }
 };
 
 struct Separation {

@@ -27,7 +27,7 @@ std::optional<protocol::Setpoint> Onward::at(SwarmTime now) const {
   const auto r = protocol::reference(course_, now, lookup);
   if (!r) return std::nullopt;
   const mechanics::CarrierSlice& slice = *lookup(course_.base.number);
-  const mechanics::Taylor<double> winch = protocol::winch_length(*r, slice.cable_stiffness_n_m);
+  const mechanics::Taylor<double> winch = mechanics::paid_out(*r, slice.cable_stiffness_n_m);
   protocol::Setpoint s;
   s.carrier = slice.id;
   s.swarm_time = now;

@@ -37,7 +37,7 @@ Command command_of(const mechanics::Reference& r, double stiffness_n_m) {
 Agent::Agent(const AgentOptions& options)
     : options_(options),
       clock_(options.timekeeper),
-      plans_(options.vehicle),
+      plans_(options.vehicle, options.machines),
       merge_(merge_limits(options.vehicle)),
       steps_(options.vehicle, options.stall),
       coordinator_(options.coordinator_timeout),

@@ -48,7 +48,7 @@ std::vector<CarrierId> Leading::unconfirmed(LocalTime now) const {
 
 /// All that carriers may be doing while a ramp lasts: what is flown, what is about to be, and the mixture of them.
 RampLimits Leading::ramp_limits() const {
-  RampLimits out{job_.plan.limits, {}};
+  RampLimits out{job_.plan.limits, job_.plan.winch, {}};
   for (const mechanics::CarrierFigures& carrier : mixture_) out.include(carrier);
   std::vector<PlanNumber> plans = protocol::plans_of(course_);
   if (plan_ != plans.back()) plans.push_back(plan_);
@@ -220,7 +220,7 @@ void Leading::pursue(LocalTime now, Outputs& out) {
       if (!stack.empty()) stacks.push_back(std::move(stack));
     }
     if (stacks.empty()) return give_up(now, "no agent has told yet what it flies", out);
-    agreement_->rehearse(Rehearsal(std::move(stacks), job_.plan.limits));
+    agreement_->rehearse(Rehearsal(std::move(stacks), job_.plan));
   }
   if (agreement_->proposal().pace.ramps.size() > protocol::kMaxRamps) {
     return give_up(now, "too many changes of pace are under way; wait until they are complete", out);

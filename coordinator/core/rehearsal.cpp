@@ -6,8 +6,8 @@
 
 namespace gyre::coordinator {
 
-Rehearsal::Rehearsal(std::vector<std::vector<mechanics::TimedLayer>> stacks, const mechanics::Limits& limits)
-    : stacks_(std::move(stacks)), limits_(limits) {
+Rehearsal::Rehearsal(std::vector<std::vector<mechanics::TimedLayer>> stacks, mechanics::Plan plan)
+    : stacks_(std::move(stacks)), plan_(std::move(plan)) {
   const mechanics::TimedLayer& top = stacks_.front().back();
   begin_s_ = top.start_s;
   end_s_ = top.start_s + top.duration_s;
@@ -16,8 +16,13 @@ Rehearsal::Rehearsal(std::vector<std::vector<mechanics::TimedLayer>> stacks, con
 bool Rehearsal::advance() {
   if (!reasons_.empty() || separated_) return true;
   if (figures_.size() < stacks_.size()) {
-    figures_.push_back(mechanics::transition_figures(stacks_[figures_.size()], begin_s_, end_s_));
-    mechanics::judge_carrier(figures_.back(), limits_, false, reasons_);
+    const auto& stack = stacks_[figures_.size()];
+    const mechanics::Carrier* carrier = mechanics::find(plan_, stack.front().slice->id);
+    const mechanics::Vehicle vehicle = carrier == nullptr ? mechanics::Vehicle{} : carrier->vehicle;
+    figures_.push_back(
+        mechanics::transition_figures(stack, begin_s_, end_s_, mechanics::weight(vehicle, plan_.gravity_m_s2)));
+    mechanics::judge_carrier(figures_.back(), plan_.limits, false, reasons_);
+    mechanics::judge_machines(figures_.back(), plan_.winch, vehicle, reasons_);
     return !reasons_.empty();
   }
   std::vector<mechanics::Path> paths;
@@ -29,7 +34,7 @@ bool Rehearsal::advance() {
   }
   // Absent: one carrier, or a motion without bounds, which has its own reason.
   const auto separation = mechanics::separation(paths, begin_s_, end_s_);
-  if (separation) mechanics::judge_separation(*separation, limits_, reasons_);
+  if (separation) mechanics::judge_separation(*separation, plan_.limits, reasons_);
   separated_ = true;
   return true;
 }

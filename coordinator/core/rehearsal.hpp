@@ -1,7 +1,8 @@
 #pragma once
-// Before a transition is proposed, it is rehearsed: proven to keep every carrier within the mission's limits and apart
-// from the others at every moment of it. The least speed excepted: it is the motion's, and a transition may begin or
-// end at rest. What to do when a limit breaks is for the agreement to say.
+// Before a transition is proposed, it is rehearsed: proven to keep every carrier within the mission's limits, its winch
+// and its vehicle within what they can do, and all apart from each other at every moment of it. The least speed
+// excepted: it is the motion's, and a transition may begin or end at rest. What to do when a limit breaks is for the
+// agreement to say.
 //
 // A rehearsal is done one carrier at a time, because a proof takes tens of milliseconds and the beacon must not wait.
 
@@ -15,7 +16,8 @@ namespace gyre::coordinator {
 class Rehearsal {
  public:
   /// `stacks[i]`: carrier i's layers with the transition on top, in seconds on one clock; the slices must outlive this.
-  Rehearsal(std::vector<std::vector<mechanics::TimedLayer>> stacks, const mechanics::Limits& limits);
+  /// `plan`: whose limits, winches and vehicles they are held to.
+  Rehearsal(std::vector<std::vector<mechanics::TimedLayer>> stacks, mechanics::Plan plan);
 
   /// One carrier's proof, or the separation of all at the end. True when nothing is left to do.
   bool advance();
@@ -25,7 +27,7 @@ class Rehearsal {
 
  private:
   std::vector<std::vector<mechanics::TimedLayer>> stacks_;
-  mechanics::Limits limits_;
+  mechanics::Plan plan_;
   std::vector<mechanics::CarrierFigures> figures_;
   std::vector<mechanics::Reason> reasons_;
   double begin_s_ = 0.0;

@@ -31,6 +31,9 @@ bool sound(double x) {
 bool sound(const Eigen::Vector3d& v) {
   return sound(v.x()) && sound(v.y()) && sound(v.z());
 }
+bool lag(double x) {
+  return sound(x) && x >= 0.0;
+}
 bool unit(double norm) {
   return std::abs(norm - 1.0) <= kUnitTolerance;
 }
@@ -208,8 +211,17 @@ void judge_form(const Plan& plan, std::vector<Reason>& reasons) {
   if (!sound(plan.cable.stiffness_n_m) || plan.cable.stiffness_n_m < 0.0) {
     malformed(std::nullopt, "the cables' stiffness is no number, or negative; give it in N/m");
   }
+  if (!lag(plan.winch.time_constant_s)) {
+    malformed(std::nullopt, "the winches' time constant is no number, or negative; give it in seconds");
+  }
   std::set<CarrierId> carriers;
   for (const Carrier& c : plan.carriers) {
+    if (!lag(c.vehicle.time_constant_s) ||
+        (c.vehicle.mass_kg && !(sound(*c.vehicle.mass_kg) && *c.vehicle.mass_kg > 0.0))) {
+      malformed(c.id, text("carrier %u: its vehicle's mass or time constant is no number, or negative; give a positive "
+                           "mass in kilograms, and the time constant in seconds",
+                           c.id));
+    }
     if (!carriers.insert(c.id).second) malformed(c.id, text("two carriers are carrier %u; number each its own", c.id));
     if (!sound(c.attachment_b_m) || !sound(c.law.profile) || (c.law.is_projection() && !unit(c.law.direction.norm()))) {
       malformed(c.id, text("carrier %u: its attachment or its length law is not in numbers of this world, the law's "

@@ -5,6 +5,7 @@
 #include "common/mechanics/carrier_slice.hpp"
 #include "common/mechanics/grasp.hpp"
 #include "common/mechanics/judgement.hpp"
+#include "common/mechanics/lag.hpp"
 #include "common/mechanics/orbit_figures.hpp"
 #include "common/mechanics/reference.hpp"
 #include "common/mechanics/separation.hpp"
@@ -70,6 +71,7 @@ Certificate certify(const Plan& plan, const CertifyOptions& options) {
   if (options.stiffness && stretched) {
     certificate.stiffness_min_1_s2 = least_stiffness(plan, all, certificate.period_s);
     certificate.skew = skew_budget(plan, all, certificate.period_s);
+    certificate.lag_error_displacement_m = lag_error_displacement_m(plan, all, certificate.period_s);
     if (*certificate.stiffness_min_1_s2 <= 0.0) {
       certificate.cautions.push_back(
           {Rule::kStiffness, std::nullopt,

@@ -110,7 +110,9 @@ struct Certificate {
   /// Smallest generalised eigenvalue of the load's stiffness against (m I, J) over all time [1/s²] (stiffness.hpp).
   /// Absent: left out, or a cable has no positive, bounded length at some moment.
   std::optional<double> stiffness_min_1_s2;
-  std::optional<SkewBudget> skew;        ///< absent where the stiffness is: a displacement follows from it
+  std::optional<SkewBudget> skew;  ///< absent where the stiffness is: a displacement follows from it
+  std::optional<double>
+      lag_error_displacement_m;          ///< that declared lags are wrong by a fifth (lag.hpp); absent: as above
   std::vector<CarrierFigures> carriers;  ///< in the plan's order
 
   [[nodiscard]] bool admissible() const { return reasons.empty(); }

@@ -234,6 +234,11 @@ void Leading::pursue(LocalTime now, Outputs& out) {
       schedule(now);
       break;
     case Agreement::Step::kGo:
+      // A mixture asks more of the clocks than either plan. Where nobody knows the plan in force, it goes all the same.
+      if (agreement_->intent().plan && agreement_->intent().rehearsed) {
+        const auto why = beyond_budget(swarm_.skew(now), skew_budget(agreement_->proposal()));
+        if (why) return give_up(now, *why, out);
+      }
       go(now, out);
       break;
     case Agreement::Step::kGiveUp:

@@ -76,6 +76,8 @@ Json certificate_json(const std::string& mission_name, const mechanics::Certific
           {"skew_budget_s", figure(skew, &mechanics::SkewBudget::budget_s)},
           {"skew_residual_n_per_s", figure(skew, &mechanics::SkewBudget::residual_n_per_s)},
           {"skew_displacement_m_per_s", figure(skew, &mechanics::SkewBudget::displacement_m_per_s)},
+          {"skew_moment_n_m_per_s", figure(skew, &mechanics::SkewBudget::residual_n_m_per_s)},
+          {"lag_error_displacement_m", figure(certificate.lag_error_displacement_m)},
           {"holdover_s", figure(skew, &mechanics::SkewBudget::holdover_s)},
           {"silence_stop_after_s", silence.stop_after ? Json(seconds(*silence.stop_after)) : Json(nullptr)},
           {"carrier_separation_min_m", figure(separation, &mechanics::Separation::min_m)},

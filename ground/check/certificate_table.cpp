@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/base/text.hpp"
+#include "common/mechanics/lag.hpp"
 #include "ground/text_table.hpp"
 
 namespace gyre::ground {
@@ -117,6 +118,13 @@ std::string skew_line(const std::optional<mechanics::SkewBudget>& budget) {
          " N and " + number_text(1e3 * skew.displacement_m_per_s) + " mm per second of it";
 }
 
+std::string lag_line(const std::optional<double>& displacement_m) {
+  if (!displacement_m || !std::isfinite(*displacement_m)) return "-";
+  if (*displacement_m == 0.0) return "nothing is said to lag";
+  return "lags that are " + text("%.0f %%", 100.0 * mechanics::kLagError) + " off move the load by " +
+         number_text(1e3 * *displacement_m) + " mm";
+}
+
 /// What the swarm does without a word, and how long that is good for where it flies on.
 std::string silence_line(const protocol::Silence& silence, const std::optional<mechanics::SkewBudget>& budget) {
   if (silence.stop_after) return "all stop together after " + number_text(seconds(*silence.stop_after)) + " s";
@@ -142,6 +150,7 @@ std::string certificate_table(const std::string& mission_name, const Limits& lim
   out += "  wrench error       " + text("%.2g", certificate.wrench_error_max_n) + " N at most\n";
   out += "  load stiffness     " + stiffness_line(certificate.stiffness_min_1_s2) + "\n";
   out += "  clock skew         " + skew_line(certificate.skew) + "\n";
+  out += "  lag                " + lag_line(certificate.lag_error_displacement_m) + "\n";
   out += "  silence            " + silence_line(silence, certificate.skew) + "\n";
   if (!certificate.admissible()) out += "\nWhy, and what would cure it:\n" + listed(certificate.reasons);
   if (!certificate.cautions.empty()) out += "\nNot forbidden, but look at it:\n" + listed(certificate.cautions);

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "common/mechanics/certificate.hpp"
+#include "common/mechanics/lag.hpp"
 #include "common/mission/mission.hpp"
 #include "simulator/core/simulator.hpp"
 #include "tests/simulator/agents.hpp"
@@ -56,6 +57,17 @@ TEST(Lag, OfWinchesThatNobodyMakesUpForMovesTheLoadByMillimetres) {
     EXPECT_LT(known_mm, 0.05);
     EXPECT_NEAR(wrong_mm, 0.2 * unknown_mm, 0.1 * unknown_mm);
   }
+}
+
+TEST(Lag, TheCertificateSaysWhatAFifthOfItWrongCosts) {
+  for (const auto& [winch_s, vehicle_s] : {std::pair(0.1, 0.0), std::pair(0.0, 0.1)}) {
+    const mechanics::Plan plan = hex(winch_s, vehicle_s);
+    const double said_mm = 1e3 * mechanics::certify(plan).lag_error_displacement_m.value();
+    const double simulated_mm = moved_mm(plan, plan, mechanics::kLagError);
+    std::printf("  a fifth of 100 ms wrong: %.2f mm by the certificate, %.2f mm simulated\n", said_mm, simulated_mm);
+    EXPECT_NEAR(said_mm, simulated_mm, 0.15 * simulated_mm);
+  }
+  EXPECT_EQ(mechanics::certify(hex(0.0)).lag_error_displacement_m, 0.0);
 }
 
 TEST(Lag, OfVehiclesIsMadeUpForAsWell) {

@@ -85,7 +85,8 @@ struct CarrierFigures {
   Range paid_out_m;  ///< l − s/k: what the winch has out; l where stretch is not compensated
   Range paid_out_rate_m_s;
   double winch_acceleration_max_m_s2 = 0.0;  ///< of what is paid out
-  /// What the vehicle pulls, m (a + g e_z) + f, and its greatest angle from the vertical; absent: its mass is not
+  /// What the vehicle pulls, m (a + g e_z) + f, and its greatest angle from the vertical, at every pace that may last:
+  /// at pace p it is p² of that at full pace and 1 − p² of that at rest, so both are in it. Absent: its mass is not
   /// known.
   std::optional<double> thrust_max_n, bank_max_rad;
 

@@ -148,23 +148,30 @@ double bend_max(const Polynomial& p, const Factor& m, const Factor& g) {
   return magnitude(extremes(q, {{m.base, m.range, -3}, {g.base, g.range, -6}}));
 }
 
-/// Of N / g³ as in the header; `a` is A.
+/// Takes up what a vehicle pulls, N d^(-half_power / 2).
+void include_pull(const PolynomialVector& n, std::initializer_list<Factor> square_factors, CarrierFigures& figures) {
+  const Polynomial square = dot(n, n);
+  const double thrust_n = square_root(extremes(square, square_factors)).max;
+  const Range range = extremes(square);
+  // A vehicle that once need not pull at all may do so in any direction.
+  const double bank_rad = range.min <= 1e-12 * range.max
+                              ? kPi
+                              : std::acos(std::clamp(extremes(n[2], {{&square, range, -1}}).min, -1.0, 1.0));
+  figures.thrust_max_n = std::max(thrust_n, figures.thrust_max_n.value_or(0.0));
+  figures.bank_max_rad = std::max(bank_rad, figures.bank_max_rad.value_or(0.0));
+}
+
+/// At rest, and at full pace N / g³ as in the header; `a` is A.
 void pull_figures(const VehicleWeight& vehicle, const Orbit& orbit, const PolynomialVector& a, const Factor& g,
                   CarrierFigures& figures) {
   const double w = orbit.base_rate_rad_s;
   const Polynomial cube = *g.base * *g.base * *g.base;
+  PolynomialVector held = orbit.f;
+  held[2] += Polynomial(vehicle.mass_kg * vehicle.gravity_m_s2);
   PolynomialVector n;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Polynomial held = i == 2 ? orbit.f[i] + Polynomial(vehicle.mass_kg * vehicle.gravity_m_s2) : orbit.f[i];
-    n[i] = (vehicle.mass_kg * w * w) * a[i] + held * cube;
-  }
-  const Polynomial square = dot(n, n);
-  figures.thrust_max_n = std::sqrt(std::max(0.0, extremes(square, {{g.base, g.range, -12}}).max));
-  const Range range = extremes(square);
-  // A vehicle that once need not pull at all may do so in any direction.
-  figures.bank_max_rad = range.min <= 1e-12 * range.max
-                             ? kPi
-                             : std::acos(std::clamp(extremes(n[2], {{&square, range, -1}}).min, -1.0, 1.0));
+  for (std::size_t i = 0; i < 3; ++i) n[i] = (vehicle.mass_kg * w * w) * a[i] + held[i] * cube;
+  include_pull(held, {}, figures);
+  include_pull(n, {{g.base, g.range, -12}}, figures);
 }
 
 void projection_figures(const CarrierSlice& c, const std::optional<VehicleWeight>& vehicle, Orbit& orbit,

@@ -16,7 +16,8 @@
 //   paid out      L = l − s/k, which under a projection is the same quotient with sigma − g/k in the place of sigma
 //       P = sigma' M g + sigma (M' g/2 − M g'),  L' = P / (√M g²)      Q = P' M g − P (M' g/2 + 2 M g'),
 //       L'' = Q / (M^(3/2) g³)
-//   pull          N = m_v (a + g_0 e_z) + f, under a projection (m_v A + (m_v g_0 e_z + f) g³) / g³
+//   pull          at rest m_v g_0 e_z + f, and with m_v a at full pace, under a projection
+//       (m_v A + (m_v g_0 e_z + f) g³) / g³
 //
 // (primes are d/dpsi; times the base rate once or twice for time derivatives)
 //

@@ -101,11 +101,11 @@ class Window {
 
   [[nodiscard]] Point figures_at(const Reference& r) const {
     const Taylor<double> winch = paid_out(r, stiffness_n_m_);
-    const Eigen::Vector3d pull =
-        vehicle_ ? Eigen::Vector3d(vehicle_->mass_kg *
-                                       (r.position_w_m.second + vehicle_->gravity_m_s2 * Eigen::Vector3d::UnitZ()) +
-                                   r.force_w_n.value)
-                 : Eigen::Vector3d::Zero();
+    const double mass_kg = vehicle_ ? vehicle_->mass_kg : 0.0;
+    const double weight_n = vehicle_ ? mass_kg * vehicle_->gravity_m_s2 : 0.0;
+    const Eigen::Vector3d at_rest = r.force_w_n.value + weight_n * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d pull = at_rest + mass_kg * r.position_w_m.second;
+    const auto bank_of = [](const Eigen::Vector3d& n) { return std::atan2(n.head<2>().norm(), n.z()); };
     return {r.tension_n.value,
             r.length_m.value,
             r.length_m.first,
@@ -116,8 +116,8 @@ class Window {
             winch.value,
             winch.first,
             std::abs(winch.second),
-            pull.norm(),
-            std::atan2(pull.head<2>().norm(), pull.z())};
+            vehicle_ ? std::max(at_rest.norm(), pull.norm()) : 0.0,
+            vehicle_ ? std::max(bank_of(at_rest), bank_of(pull)) : 0.0};
   }
 
   [[nodiscard]] Enclosure cell(double begin_s, double end_s, const Reference& at, const Point& point, double h) const {
@@ -139,15 +139,16 @@ class Window {
     };
     IntervalVector v;
     IntervalVector a;
+    IntervalVector at_rest;
     IntervalVector pull;
     for (int i = 0; i < 3; ++i) {
       const auto k = static_cast<std::size_t>(i);
       v[k] = mean_value(at.position_w_m.first[i], r.position_w_m.second[i], r.position_w_m.first[i]);
       a[k] = r.position_w_m.second[i];
       if (!vehicle_) continue;
-      const Interval held = i == 2 ? a[k] + vehicle_->gravity_m_s2 : a[k];
-      pull[k] =
-          vehicle_->mass_kg * held + mean_value(at.force_w_n.value[i], r.force_w_n.first[i], r.force_w_n.value[i]);
+      at_rest[k] = mean_value(at.force_w_n.value[i], r.force_w_n.first[i], r.force_w_n.value[i]);
+      if (i == 2) at_rest[k] += vehicle_->mass_kg * vehicle_->gravity_m_s2;
+      pull[k] = at_rest[k] + vehicle_->mass_kg * a[k];
     }
     const Taylor<Interval> winch = paid_out(r, stiffness_n_m_);
     return {mean_value(point[kTension], r.tension_n.first, r.tension_n.value),
@@ -160,8 +161,8 @@ class Window {
             mean_value(point[kPaidOut], winch.first, winch.value),
             mean_value(point[kPaidOutRate], winch.second, winch.first),
             boost::numeric::abs(winch.second),
-            norm(pull),
-            vehicle_ ? bank(pull) : Interval(0.0)};
+            boost::numeric::max(norm(at_rest), norm(pull)),
+            vehicle_ ? boost::numeric::max(bank(at_rest), bank(pull)) : Interval(0.0)};
   }
 
   static Taylor<Interval> weight(const TimedLayer& layer, double begin_s, double end_s) {

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "common/base/angle.hpp"
 #include "common/base/text.hpp"
 #include "common/mechanics/lag.hpp"
 #include "ground/text_table.hpp"
@@ -118,6 +119,28 @@ std::string skew_line(const std::optional<mechanics::SkewBudget>& budget) {
          " N and " + number_text(1e3 * skew.displacement_m_per_s) + " mm per second of it";
 }
 
+std::string winches_line(const Certificate& certificate) {
+  Range length, rate, acceleration;
+  for (const CarrierFigures& figures : certificate.carriers) {
+    length.include(figures.paid_out_m);
+    rate.include(figures.paid_out_rate_max_m_s());
+    acceleration.include(figures.winch_acceleration_max_m_s2);
+  }
+  if (!std::isfinite(length.min) || !std::isfinite(length.max)) return "-";
+  return "pay out " + range_text(length) + " m, by up to " + number_text(rate.max) + " m/s and " +
+         number_text(acceleration.max) + " m/s^2";
+}
+
+std::string vehicles_line(const Certificate& certificate) {
+  Range thrust, bank;
+  for (const CarrierFigures& figures : certificate.carriers) {
+    if (figures.thrust_max_n) thrust.include(*figures.thrust_max_n);
+    if (figures.bank_max_rad) bank.include(degrees(*figures.bank_max_rad));
+  }
+  if (!std::isfinite(thrust.max)) return "-";
+  return "pull up to " + number_text(thrust.max) + " N, at up to " + number_text(bank.max) + " degrees";
+}
+
 std::string lag_line(const std::optional<double>& displacement_m) {
   if (!displacement_m || !std::isfinite(*displacement_m)) return "-";
   if (*displacement_m == 0.0) return "nothing is said to lag";
@@ -150,6 +173,8 @@ std::string certificate_table(const std::string& mission_name, const Limits& lim
   out += "  wrench error       " + text("%.2g", certificate.wrench_error_max_n) + " N at most\n";
   out += "  load stiffness     " + stiffness_line(certificate.stiffness_min_1_s2) + "\n";
   out += "  clock skew         " + skew_line(certificate.skew) + "\n";
+  out += "  winches            " + winches_line(certificate) + "\n";
+  out += "  vehicles           " + vehicles_line(certificate) + "\n";
   out += "  lag                " + lag_line(certificate.lag_error_displacement_m) + "\n";
   out += "  silence            " + silence_line(silence, certificate.skew) + "\n";
   if (!certificate.admissible()) out += "\nWhy, and what would cure it:\n" + listed(certificate.reasons);

@@ -25,6 +25,11 @@ void judge_form(const Plan& plan, std::vector<Reason>& reasons);
 /// finite break every limit they are held to.
 void judge_carrier(const CarrierFigures& figures, const Limits& limits, bool non_stop, std::vector<Reason>& reasons);
 
+/// The same figures against what the mission says that the winch and the vehicle can do. What is not known of a figure
+/// is not judged.
+void judge_machines(const CarrierFigures& figures, const Winch& winch, const Vehicle& vehicle,
+                    std::vector<Reason>& reasons);
+
 /// The paper's conditions for a motion that never stops and holds the load: number of carriers, rank, plane, phases.
 /// They explain; whether a carrier stops is decided by its exact least speed.
 void judge_construction(const Plan& plan, const std::vector<CarrierSlice>& slices, std::vector<Reason>& reasons);

@@ -13,9 +13,12 @@
 
 namespace gyre::coordinator {
 
-/// What a ramp has to keep: the limits, by all that the carriers may be doing at full pace meanwhile.
+/// What a ramp has to keep: the limits, and what winches can do, by all that the carriers may be doing at full pace
+/// meanwhile. What a winch pays out passes by plan time as a carrier's place does, so the same formula bounds it:
+/// |L''| <= pace² |L''|max + |pace'| |L'|max.
 struct RampLimits {
   mechanics::Limits limits;
+  mechanics::Winch winch;
   std::vector<mechanics::CarrierFigures> figures;  ///< of every plan in use, and of mixtures of them; any order
 
   /// One more, unless another asks for more in everything: of a hundred carriers alike one is left to look at.

@@ -6,7 +6,9 @@
 #include <sstream>
 #include <vector>
 
+#include "common/base/angle.hpp"
 #include "common/base/text.hpp"
+#include "common/mechanics/lag.hpp"
 #include "ground/text_table.hpp"
 
 namespace gyre::ground {
@@ -136,6 +138,35 @@ std::string skew_line(const std::optional<mechanics::SkewBudget>& budget) {
          " N and " + number_text(1e3 * skew.displacement_m_per_s) + " mm per second of it";
 }
 
+std::string winches_line(const Certificate& certificate) {
+  Range length, rate, acceleration;
+  for (const CarrierFigures& figures : certificate.carriers) {
+    length.include(figures.paid_out_m);
+    rate.include(figures.paid_out_rate_max_m_s());
+    acceleration.include(figures.winch_acceleration_max_m_s2);
+  }
+  if (!std::isfinite(length.min) || !std::isfinite(length.max)) return "-";
+  return "pay out " + range_text(length) + " m, by up to " + number_text(rate.max) + " m/s and " +
+         number_text(acceleration.max) + " m/s^2";
+}
+
+std::string vehicles_line(const Certificate& certificate) {
+  Range thrust, bank;
+  for (const CarrierFigures& figures : certificate.carriers) {
+    if (figures.thrust_max_n) thrust.include(*figures.thrust_max_n);
+    if (figures.bank_max_rad) bank.include(degrees(*figures.bank_max_rad));
+  }
+  if (!std::isfinite(thrust.max)) return "-";
+  return "pull up to " + number_text(thrust.max) + " N, at up to " + number_text(bank.max) + " degrees";
+}
+
+std::string lag_line(const std::optional<double>& displacement_m) {
+  if (!displacement_m || !std::isfinite(*displacement_m)) return "-";
+  if (*displacement_m == 0.0) return "nothing is said to lag";
+  return "lags that are " + text("%.0f %%", 100.0 * mechanics::kLagError) + " off move the load by " +
+         number_text(1e3 * *displacement_m) + " mm";
+}
+
 /// What the swarm does without a word, and how long that is good for where it flies on.
 std::string silence_line(const protocol::Silence& silence, const std::optional<mechanics::SkewBudget>& budget) {
   if (silence.stop_after) return "all stop together after " + number_text(seconds(*silence.stop_after)) + " s";
@@ -164,6 +195,9 @@ std::string certificate_table(const std::string& mission_name, const Limits& lim
   out += "  load stiffness     " + stiffness_line(certificate.stiffness_min_1_s2) + "\n";
   out += "  swings             " + swing_line(certificate.swings) + "\n";
   out += "  clock skew         " + skew_line(certificate.skew) + "\n";
+  out += "  winches            " + winches_line(certificate) + "\n";
+  out += "  vehicles           " + vehicles_line(certificate) + "\n";
+  out += "  lag                " + lag_line(certificate.lag_error_displacement_m) + "\n";
   out += "  silence            " + silence_line(silence, certificate.skew) + "\n";
   if (!certificate.admissible()) out += "\nWhy, and what would cure it:\n" + listed(certificate.reasons);
   if (!certificate.cautions.empty()) out += "\nNot forbidden, but look at it:\n" + listed(certificate.cautions);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include "common/base/angle.hpp"
 #include "common/mechanics/reference.hpp"
 #include "common/mission/mission.hpp"
 #include "ground/check/certificate_json.hpp"
@@ -83,8 +84,8 @@ TEST(Table, EveryRuleIsNamedWithItsText) {
 
 TEST(Table, WhatWasNotComputedIsADash) {
   mechanics::Certificate certificate = one_bad_carrier();
-  for (const char* line :
-       {"  separation ", "  cables apart ", "  clearance ", "  load stiffness ", "  swings ", "  clock skew "}) {
+  for (const char* line : {"  separation ", "  cables apart ", "  clearance ", "  load stiffness ", "  swings ",
+                           "  clock skew ", "  winches ", "  vehicles ", "  lag "}) {
     const std::string dash = line_of(certificate_table("m", {}, certificate, kStop), line);
     EXPECT_EQ(dash.find_first_not_of(' ', std::string(line).size()), dash.size() - 1) << dash;
     EXPECT_EQ(dash.back(), '-') << dash;
@@ -122,6 +123,31 @@ TEST(Table, SwingsAreToldAsTheyAreAndWithAMargin) {
             "0.2 1/s !");
 }
 
+TEST(Table, SaysWhatMachinesHaveToDoAtTheirWorst) {
+  mechanics::Certificate certificate = one_bad_carrier();
+  mechanics::CarrierFigures other;
+  other.paid_out_m = {1.0, 2.5};
+  other.paid_out_rate_m_s = {-0.5, 0.25};
+  other.winch_acceleration_max_m_s2 = 0.125;
+  other.thrust_max_n = 40.0;
+  other.bank_max_rad = radians(30.0);
+  certificate.carriers = {other};
+  certificate.lag_error_displacement_m = 0.0015;
+  const std::string table = certificate_table("m", {}, certificate, kStop);
+  EXPECT_EQ(line_of(table, "  winches "), "  winches            pay out 1 .. 2.5 m, by up to 0.5 m/s and 0.125 m/s^2");
+  EXPECT_EQ(line_of(table, "  vehicles "), "  vehicles           pull up to 40 N, at up to 30 degrees");
+  EXPECT_EQ(line_of(table, "  lag "), "  lag                lags that are 20 % off move the load by 1.5 mm");
+  const auto json = certificate_json("m", certificate, kStop);
+  EXPECT_EQ(json.at("lag_error_displacement_m"), 0.0015);
+  const auto& carrier = json.at("carriers")[0];
+  EXPECT_EQ(carrier.at("winch_paid_out_min_m"), 1.0);
+  EXPECT_EQ(carrier.at("winch_paid_out_max_m"), 2.5);
+  EXPECT_EQ(carrier.at("winch_paid_out_rate_max_m_s"), 0.5);
+  EXPECT_EQ(carrier.at("winch_acceleration_max_m_s2"), 0.125);
+  EXPECT_EQ(carrier.at("thrust_max_n"), 40.0);
+  EXPECT_NEAR(carrier.at("bank_max_deg").get<double>(), 30.0, 1e-12);
+}
+
 TEST(Table, ToldWhatSilenceDoesAndHowLongFlyingOnIsGood) {
   mechanics::Certificate certificate = one_bad_carrier();
   const auto line = [&](const protocol::Silence& silence) {
@@ -152,14 +178,15 @@ TEST(Json, WhatIsInfiniteOrAbsentIsNull) {
        {"carrier_separation_min_m", "carrier_separation_pair", "cable_distance_min_m", "cable_distance_pair",
         "clearance_min_m", "clearance_of", "clearance_pair", "clearance_at_s", "above_load_min_m", "stiffness_min_1_s2",
         "swing_growth_1_s", "swing_growth_worst_1_s", "swing_paces", "skew_budget_s", "skew_residual_n_per_s",
-        "skew_displacement_m_per_s", "holdover_s"}) {
+        "skew_displacement_m_per_s", "skew_moment_n_m_per_s", "lag_error_displacement_m", "holdover_s"}) {
     EXPECT_TRUE(json.at(key).is_null()) << key;
   }
   const auto& carrier = json.at("carriers")[0];
   EXPECT_EQ(carrier.at("length_min_m"), 2.0);
   EXPECT_TRUE(carrier.at("length_max_m").is_null());
   EXPECT_TRUE(carrier.at("speed_max_m_s").is_null());
-  EXPECT_TRUE(carrier.at("direction_cosine_min").is_null());
+  for (const char* key : {"direction_cosine_min", "thrust_max_n", "bank_max_deg"})
+    EXPECT_TRUE(carrier.at(key).is_null());
   EXPECT_EQ(carrier.at("winch_rate_max_m_s"), 0.75);  // reeling in counts as much as paying out
 }
 

@@ -150,7 +150,7 @@ TEST(Degenerate, feathers_and_ships_obey_the_same_laws) {
     Plan plan = paper_plan();
     plan.load.mass_kg *= k;
     plan.load.inertia_b_kg_m2 *= k;
-    plan.cable.stiffness_n_m *= k;
+    plan.cable.stiffness_n_m *= k;  // no rope of the paper's holds a ship
     plan.cable.damping_n_s_m *= k;
     for (Edge& edge : plan.cycle.edges) edge.amplitude_n *= k;
     const Certificate scaled = expect_numbers(plan);

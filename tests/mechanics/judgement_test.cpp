@@ -272,7 +272,7 @@ TEST(LimitsOfAPlan, each_is_kept_to_the_figure_and_broken_beyond_it) {
   for (const CarrierFigures& f : c.carriers) {
     tension_min = std::min(tension_min, f.tension_n.min);
     tension_max = std::max(tension_max, f.tension_n.max);
-    length_min = std::min(length_min, f.length_m.min);
+    length_min = std::min(length_min, f.paid_out_m.min);  // what is paid out is the shorter one
     length_max = std::max(length_max, f.length_m.max);
     winch = std::max(winch, f.winch_rate_max_m_s());
     speed_min = std::min(speed_min, f.speed_m_s.min);

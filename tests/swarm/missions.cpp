@@ -155,6 +155,14 @@ std::vector<LoadWithMotions> make_loads() {
     }
     if (motions.size() >= 2) out.push_back(with_room(std::move(motions)));
   }
+  // Some of their winches lag, and some of their vehicles, as a machine does: the same in all motions.
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    for (Plan& motion : out[i].motions) {
+      motion.winch.time_constant_s = 0.02 * static_cast<double>(i % 3);
+      for (mechanics::Carrier& carrier : motion.carriers)
+        carrier.vehicle.time_constant_s = 0.05 * static_cast<double>((i + carrier.id) % 4);
+    }
+  }
   return out;
 }
 

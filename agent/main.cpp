@@ -105,14 +105,21 @@ int run(gyre::agent::AgentOptions options, const program::NetworkOptions& networ
 int main(int argc, char** argv) {
   gyre::block_interrupts();
   gyre::agent::AgentOptions options;
+  gyre::agent::VehicleOptions vehicle;
   program::Options common;
   std::vector<program::OptionGroup> groups =
       program::with_common({{"--carrier", &options.carrier, "this carrier's id in the mission",
                              program::Bounds{1, gyre::kMaxCarrierId}, program::Take::kRequired}},
                            common);
-  groups.push_back(gyre::agent::vehicle_options(options.vehicle));
+  groups.push_back(gyre::agent::vehicle_options(vehicle));
   const auto fly = [&]() -> int {
     if (const auto answer = program::start("gyre-agent " + std::to_string(options.carrier), common)) return *answer;
+    if (const auto objection = vehicle.objection()) {
+      gyre::log_error(*objection);
+      return program::kBadUsage;
+    }
+    options.vehicle = vehicle.limits;
+    options.machines = vehicle.machines();
     return run(options, common.network);
   };
   return program::run(

@@ -26,10 +26,11 @@ using gyre::coordinator::Outputs;
 namespace program = gyre::program;
 namespace protocol = gyre::protocol;
 
-gyre::coordinator::Job job_of(const gyre::mission::Mission& mission) {
+gyre::coordinator::Job job_of(const gyre::mission::Mission& mission, const gyre::mechanics::Certificate& certificate) {
   gyre::coordinator::Job job;
   job.name = mission.name;
   job.plan = mission.plan;
+  job.swings = certificate.swings;
   if (mission.transition_duration_s) job.transition = gyre::from_seconds(*mission.transition_duration_s);
   job.silence = mission.silence;
   return job;
@@ -41,7 +42,7 @@ gyre::Result<gyre::coordinator::Job> judged(const std::string& text) {
   if (!mission) return mission.error();
   const gyre::mechanics::Certificate certificate = gyre::mechanics::certify(mission.value().plan);
   if (!certificate.admissible()) return gyre::Error{"refused: " + certificate.reasons.front().text};
-  return job_of(mission.value());
+  return job_of(mission.value(), certificate);
 }
 
 constexpr gyre::Duration kEvidencePeriod = std::chrono::milliseconds(18);
@@ -162,7 +163,7 @@ int run(const std::string& path, const program::NetworkOptions& network, bool en
   coordinator_options.nonce = std::random_device{}();
   coordinator_options.engage_when_ready = engage;
 
-  Coordinator coordinator(job_of(mission.value()), coordinator_options);
+  Coordinator coordinator(job_of(mission.value(), certificate), coordinator_options);
   Wire wire(std::move(node).value(), mission.value().plan);
   const Outcome outcome = conduct(coordinator, wire);
   gyre::log(outcome.clean ? gyre::Notice::Level::kInfo : gyre::Notice::Level::kError, outcome.text);

@@ -77,9 +77,7 @@ class Wire {
 SimulationSettings settings_of(const gyre::mission::Mission& mission) {
   SimulationSettings settings;
   settings.carrier_lag_s = mission.simulation.carrier_time_constant_s;
-  const gyre::mechanics::Winch& winch = mission.plan.winch;
-  if (winch.time_constant_s > 0.0) settings.winch_time_constant_s = winch.time_constant_s;
-  settings.winch_rate_limit_m_s = winch.rate_max_m_s;
+  settings.lag_error = mission.simulation.lag_error;
   settings.holds = mission.holds;
   if (const auto& wind = mission.simulation.wind) {
     settings.wind = {wind->force_w_n, wind->gust_n, wind->gust_time_s};

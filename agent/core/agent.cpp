@@ -29,7 +29,7 @@ MergeLimits merge_limits(const mechanics::Limits& vehicle) {
 }
 
 Command command_of(const mechanics::Reference& r, double stiffness_n_m) {
-  return {r.position_w_m, protocol::winch_length(r, stiffness_n_m)};
+  return {r.position_w_m, mechanics::paid_out(r, stiffness_n_m)};
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ Command command_of(const mechanics::Reference& r, double stiffness_n_m) {
 Agent::Agent(const AgentOptions& options)
     : options_(options),
       clock_(options.timekeeper),
-      plans_(options.vehicle),
+      plans_(options.vehicle, options.machines),
       merge_(merge_limits(options.vehicle)),
       steps_(options.vehicle, options.stall),
       coordinator_(options.coordinator_timeout),
@@ -348,8 +348,13 @@ std::optional<mechanics::Reference> Agent::reference(const protocol::Course& cou
 
 protocol::Setpoint Agent::setpoint(SwarmTime now, const mechanics::Reference& r) {
   // Nearly always there is nothing to merge, and `r` is all of it.
-  const Command command = merge_.under_way(now) ? merge_.apply(now, path(course_))
-                                                : command_of(r, plans_.find(course_.base.number)->cable_stiffness_n_m);
+  const mechanics::CarrierSlice& slice = *plans_.find(course_.base.number);
+  const Command wanted =
+      merge_.under_way(now) ? merge_.apply(now, path(course_)) : command_of(r, slice.cable_stiffness_n_m);
+  // What is to be flown is asked for ahead of the machines' lags, at this last stage: all before it goes by where the
+  // vehicle is to be, as all that the vehicle tells does.
+  const Command command{mechanics::led(wanted.position_w_m, slice.vehicle_lag_s),
+                        mechanics::led(wanted.winch_m, slice.winch_lag_s)};
   protocol::Setpoint s;
   s.carrier = options_.carrier;
   s.incarnation = options_.incarnation;

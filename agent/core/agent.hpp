@@ -30,6 +30,7 @@ struct AgentOptions {
   std::uint64_t incarnation = 0;  ///< differs at every start
   std::string address;            ///< where this process is, for people
   mechanics::Limits vehicle;      ///< what this vehicle can do
+  Machines machines;
   Duration control_period = std::chrono::milliseconds(10);
   Duration hurry = std::chrono::milliseconds(5);  ///< instead, from the first beacon on until it knows swarm time
   Duration status_period = std::chrono::milliseconds(100);

@@ -12,9 +12,16 @@
 
 namespace gyre::agent {
 
+/// What its owner says of this carrier's winch and vehicle. Their lags are not his to say: the plan knows them.
+struct Machines {
+  mechanics::Winch winch;
+  mechanics::Vehicle vehicle;
+};
+
 struct PlanQuestion {
   protocol::NumberedSlice plan;
   mechanics::Limits vehicle;  ///< absent limits are not judged; its speed_min holds for plans that move
+  Machines machines;
 };
 
 struct PlanVerdict {

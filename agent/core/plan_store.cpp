@@ -52,7 +52,7 @@ bool PlanStore::take(const std::vector<NumberedSlice>& offered, const std::vecto
 std::optional<PlanQuestion> PlanStore::question() {
   if (asked_ || waiting_.empty()) return std::nullopt;
   asked_ = waiting_.front();
-  return PlanQuestion{*asked_, vehicle_};
+  return PlanQuestion{*asked_, vehicle_, machines_};
 }
 
 bool PlanStore::take(const PlanVerdict& verdict) {
@@ -86,9 +86,13 @@ const mechanics::CarrierSlice* PlanStore::find(const PlanNumber& number) const {
 bool PlanStore::flies(const PlanNumber& number, const protocol::Ramp& ramp) const {
   const Held* found = held(number);
   if (found == nullptr) return false;
-  if (!vehicle_.acceleration_max_m_s2) return true;
-  const auto peak = protocol::peaks(ramp, found->figures.speed_m_s.max, found->figures.acceleration_max_m_s2);
-  return peak.acceleration_m_s2 <= *vehicle_.acceleration_max_m_s2 * (1.0 + 1e-4);  // what is at the limit keeps it
+  const auto keeps = [&ramp](double speed_m_s, double acceleration_m_s2, const std::optional<double>& limit) {
+    constexpr double kRounding = 1.0 + 1e-4;  // what is at the limit keeps it
+    return !limit || protocol::peaks(ramp, speed_m_s, acceleration_m_s2).acceleration_m_s2 <= *limit * kRounding;
+  };
+  const mechanics::CarrierFigures& f = found->figures;
+  return keeps(f.speed_m_s.max, f.acceleration_max_m_s2, vehicle_.acceleration_max_m_s2) &&
+         keeps(f.paid_out_rate_max_m_s(), f.winch_acceleration_max_m_s2, machines_.winch.acceleration_max_m_s2);
 }
 
 std::vector<NumberedSlice> PlanStore::held() const {

@@ -18,8 +18,8 @@ namespace gyre::agent {
 
 class PlanStore {
  public:
-  /// `vehicle`: what this carrier can do.
-  explicit PlanStore(mechanics::Limits vehicle) : vehicle_(vehicle) {}
+  /// What this carrier can do.
+  PlanStore(mechanics::Limits vehicle, Machines machines) : vehicle_(vehicle), machines_(machines) {}
 
   /// Keeps what is offered or `in_use`, forgets the rest; what is new waits. True if one that was held is not any more.
   bool take(const std::vector<protocol::NumberedSlice>& offered, const std::vector<protocol::PlanNumber>& in_use);
@@ -48,6 +48,7 @@ class PlanStore {
   [[nodiscard]] const Held* held(const protocol::PlanNumber& number) const;
 
   mechanics::Limits vehicle_;
+  Machines machines_;
   std::vector<Held> accepted_;
   std::vector<protocol::NumberedSlice> waiting_;    ///< offered and not judged yet; first offered, first judged
   std::vector<protocol::NumberedSlice> unflyable_;  ///< offered and refused

@@ -152,6 +152,8 @@ idl::CarrierSlice to_wire(const mechanics::CarrierSlice& slice) {
   wire.rate_rad_s(slice.rate_rad_s);
   wire.law(to_wire(slice.law));
   wire.cable_stiffness_n_m(slice.cable_stiffness_n_m);
+  wire.winch_lag_s(slice.winch_lag_s);
+  wire.vehicle_lag_s(slice.vehicle_lag_s);
   return wire;
 }
 
@@ -165,7 +167,9 @@ std::optional<mechanics::CarrierSlice> from_wire(const idl::CarrierSlice& wire) 
                                  from_wire(wire.outgoing()),
                                  wire.rate_rad_s(),
                                  *law,
-                                 wire.cable_stiffness_n_m()};
+                                 wire.cable_stiffness_n_m(),
+                                 wire.winch_lag_s(),
+                                 wire.vehicle_lag_s()};
 }
 
 idl::DropCounts to_wire(const protocol::DropCounts& counts) {

@@ -34,7 +34,8 @@ bool alike(const CarrierSlice& a, const CarrierSlice& b) {
   return a.id == b.id && alike(a.attachment_w_m, b.attachment_w_m) &&
          alike(a.particular_force_w_n, b.particular_force_w_n) && alike(a.incoming, b.incoming) &&
          alike(a.outgoing, b.outgoing) && alike(a.rate_rad_s, b.rate_rad_s) && alike(a.law, b.law) &&
-         alike(a.cable_stiffness_n_m, b.cable_stiffness_n_m);
+         alike(a.cable_stiffness_n_m, b.cable_stiffness_n_m) && alike(a.winch_lag_s, b.winch_lag_s) &&
+         alike(a.vehicle_lag_s, b.vehicle_lag_s);
 }
 
 std::vector<CarrierSlice> slices(const Plan& plan) {
@@ -52,6 +53,8 @@ std::vector<CarrierSlice> slices(const Plan& plan) {
     out[i].rate_rad_s = plan.cycle.rate_rad_s;
     out[i].law = plan.carriers[i].law;
     out[i].cable_stiffness_n_m = plan.cable.compensate_stretch ? plan.cable.stiffness_n_m : 0.0;
+    out[i].winch_lag_s = plan.winch.time_constant_s;
+    out[i].vehicle_lag_s = plan.carriers[i].vehicle.time_constant_s;
   }
   for (const Edge& edge : plan.cycle.edges) {
     const auto from = index.find(edge.from);

@@ -44,12 +44,16 @@ struct CarrierSlice {
   LengthLaw law;
   /// 0: do not compensate the cable's stretch.
   double cable_stiffness_n_m = 0.0;
+  /// First-order lags of the carrier's winch and vehicle, which are asked for everything so much ahead; 0: none.
+  double winch_lag_s = 0.0;
+  double vehicle_lag_s = 0.0;
 
   /// To the bit: the same plan, told twice.
   friend bool operator==(const CarrierSlice& a, const CarrierSlice& b) {
     return a.id == b.id && a.attachment_w_m == b.attachment_w_m && a.particular_force_w_n == b.particular_force_w_n &&
            a.incoming == b.incoming && a.outgoing == b.outgoing && a.rate_rad_s == b.rate_rad_s && a.law == b.law &&
-           a.cable_stiffness_n_m == b.cable_stiffness_n_m;
+           a.cable_stiffness_n_m == b.cable_stiffness_n_m && a.winch_lag_s == b.winch_lag_s &&
+           a.vehicle_lag_s == b.vehicle_lag_s;
   }
 };
 

@@ -7,6 +7,7 @@
 #include "common/mechanics/clearance.hpp"
 #include "common/mechanics/grasp.hpp"
 #include "common/mechanics/judgement.hpp"
+#include "common/mechanics/lag.hpp"
 #include "common/mechanics/load_hull.hpp"
 #include "common/mechanics/orbit_figures.hpp"
 #include "common/mechanics/reference.hpp"
@@ -73,22 +74,27 @@ Certificate certify(const Plan& plan, const CertifyOptions& options) {
   certificate.wrench_error_max_n = wrench_error(plan, all);
   certificate.carriers.reserve(all.size());
   bool stretched = true;  // lengths are positive and bounded, as stiffness needs them
+  bool taut = true;
   for (const CarrierSlice& slice : all) {
-    certificate.carriers.push_back(orbit_figures(slice));
+    const Carrier& carrier = plan.carriers[certificate.carriers.size()];
+    certificate.carriers.push_back(orbit_figures(slice, weight(carrier.vehicle, plan.gravity_m_s2)));
     const Range& length = certificate.carriers.back().length_m;
     stretched = stretched && length.min > 0.0 && std::isfinite(length.max);
+    taut = taut && certificate.carriers.back().tension_n.min > 0.0;
     judge_carrier(certificate.carriers.back(), plan.limits, options.non_stop, certificate.reasons);
+    judge_machines(certificate.carriers.back(), plan.winch, carrier.vehicle, certificate.reasons);
   }
   if (options.separation) certify_apart(plan, all, certificate);
   if (options.stiffness && stretched) {
     certificate.stiffness_min_1_s2 = least_stiffness(plan, all, certificate.period_s);
     certificate.skew = skew_budget(plan, all, certificate.period_s);
-    if (*certificate.stiffness_min_1_s2 <= 0.0) {
-      certificate.cautions.push_back(
-          {Rule::kStiffness, std::nullopt,
-           "at some moments the cables do not pull the load back to its pose, and a swing may grow; attach the cables "
-           "higher above the centre of mass, shorten them, or choose offsets that pull the attachments apart"});
-    }
+    certificate.lag_error_displacement_m = lag_error_displacement_m(plan, all, certificate.period_s);
+    caution_of_stiffness(*certificate.stiffness_min_1_s2, certificate.cautions);
+  }
+  if (options.swings && taut && certificate.stiffness_min_1_s2) {
+    certificate.swings = swings(plan, all, certificate.period_s, *certificate.stiffness_min_1_s2);
+    if (options.non_stop) judge_swings(*certificate.swings, certificate.reasons);
+    caution_of_swings(*certificate.swings, certificate.cautions);
   }
   return certificate;
 }

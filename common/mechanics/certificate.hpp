@@ -21,6 +21,7 @@
 #include "common/mechanics/plan.hpp"
 #include "common/mechanics/range.hpp"
 #include "common/mechanics/skew.hpp"
+#include "common/mechanics/swing.hpp"
 
 namespace gyre::mechanics {
 
@@ -39,12 +40,16 @@ enum class Rule {
   kDirectionCosine,
   kLengthBounds,
   kWinchRate,
+  kWinch,
   kSpeed,
   kAcceleration,
+  kThrust,
+  kBank,
   kSeparation,
   kBraid,
   kClearance,
   kStiffness,
+  kSwing,
 };
 
 /// The rule as a person reads it, in the paper's words: "two-carrier obstruction".
@@ -56,7 +61,20 @@ struct Reason {
   std::string text;
 };
 
-/// Extremes over all time, outward of the true ones by rounding only.
+/// A vehicle as far as what it has to pull depends on it.
+struct VehicleWeight {
+  double mass_kg = 0.0;
+  double gravity_m_s2 = 0.0;
+};
+
+/// Absent: the vehicle's mass is not known.
+[[nodiscard]] inline std::optional<VehicleWeight> weight(const Vehicle& vehicle, double gravity_m_s2) {
+  if (!vehicle.mass_kg) return std::nullopt;
+  return VehicleWeight{*vehicle.mass_kg, gravity_m_s2};
+}
+
+/// Extremes over all time, outward of the true ones by rounding only; where they are proven bounds, what computes them
+/// says so.
 struct CarrierFigures {
   CarrierId id = 0;
   Range tension_n;
@@ -68,8 +86,16 @@ struct CarrierFigures {
   Range vertical_cosine;  ///< q_z
   /// min |u·q| of a projection law; absent for sine and fixed, which have no u.
   std::optional<double> direction_cosine_min;
+  Range paid_out_m;  ///< l − s/k: what the winch has out; l where stretch is not compensated
+  Range paid_out_rate_m_s;
+  double winch_acceleration_max_m_s2 = 0.0;  ///< of what is paid out
+  /// What the vehicle pulls, m (a + g e_z) + f, and its greatest angle from the vertical, at every pace that may last:
+  /// at pace p it is p² of that at full pace and 1 − p² of that at rest, so both are in it. Absent: its mass is not
+  /// known.
+  std::optional<double> thrust_max_n, bank_max_rad;
 
   [[nodiscard]] double winch_rate_max_m_s() const { return std::max(winch_rate_m_s.max, -winch_rate_m_s.min); }
+  [[nodiscard]] double paid_out_rate_max_m_s() const { return std::max(paid_out_rate_m_s.max, -paid_out_rate_m_s.min); }
 };
 
 /// What comes close to what (clearance.hpp).
@@ -91,8 +117,8 @@ struct Approach {
 
 struct Certificate {
   std::vector<Reason> reasons;
-  /// What breaks no rule but deserves a look. A stiffness that is negative at some moments is here: the stability of a
-  /// motion is decided over its whole period, and passing moments alone do not decide it.
+  /// What breaks no rule but deserves a look. A stiffness that is negative at some moments is here, because a swing's
+  /// fate is decided over whole periods; and so are paces at which a swing grows, because they are passed.
   std::vector<Reason> cautions;
   double period_s = std::numeric_limits<double>::infinity();
   double wrench_error_max_n = std::numeric_limits<double>::infinity();
@@ -107,7 +133,10 @@ struct Certificate {
   /// Smallest generalised eigenvalue of the load's stiffness against (m I, J) over all time [1/s²] (stiffness.hpp).
   /// Absent: left out, or a cable has no positive, bounded length at some moment.
   std::optional<double> stiffness_min_1_s2;
-  std::optional<SkewBudget> skew;        ///< absent where the stiffness is: a displacement follows from it
+  std::optional<SkewBudget> skew;  ///< absent where the stiffness is: a displacement follows from it
+  /// That declared lags are wrong by a fifth (lag.hpp); absent: as above.
+  std::optional<double> lag_error_displacement_m;
+  std::optional<Swings> swings;          ///< absent where the stiffness is, left out, or a cable goes slack
   std::vector<CarrierFigures> carriers;  ///< in the plan's order
 
   [[nodiscard]] bool admissible() const { return reasons.empty(); }
@@ -118,6 +147,7 @@ struct CertifyOptions {
   bool separation = true;  ///< and all that must not touch
   bool stiffness = true;   ///< and the skew budget
   bool non_stop = true;    ///< off for a plan that is meant to stand still
+  bool swings = true;      ///< where the stiffness is; they cost more than all the rest
 };
 
 /// Of any plan, whatever is in it: nothing here asks that it be valid.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "common/base/angle.hpp"
 #include "common/base/text.hpp"
 #include "common/mechanics/grasp.hpp"
 #include "common/mechanics/load_hull.hpp"
@@ -30,6 +31,9 @@ bool sound(double x) {
 }
 bool sound(const Eigen::Vector3d& v) {
   return sound(v.x()) && sound(v.y()) && sound(v.z());
+}
+bool lag(double x) {
+  return sound(x) && x >= 0.0;
 }
 bool unit(double norm) {
   return std::abs(norm - 1.0) <= kUnitTolerance;
@@ -124,6 +128,15 @@ void judge_many(const std::vector<CarrierSlice>& slices, std::vector<Reason>& re
   }
 }
 
+bool slack(const CarrierFigures& f) {
+  return f.tension_n.min <= 1e-6 * f.tension_n.max;
+}
+
+/// Its cable becomes perpendicular to what its length law projects on.
+bool loses_its_law(const CarrierFigures& f) {
+  return f.direction_cosine_min && *f.direction_cosine_min <= 0.0;
+}
+
 /// One line per limit: the figure, the limit it breaks, and the cure.
 struct Bound {
   Rule rule;
@@ -181,10 +194,16 @@ const char* name(Rule rule) {
       return "length bounds";
     case Rule::kWinchRate:
       return "winch rate";
+    case Rule::kWinch:
+      return "winch";
     case Rule::kSpeed:
       return "speed";
     case Rule::kAcceleration:
       return "acceleration";
+    case Rule::kThrust:
+      return "thrust";
+    case Rule::kBank:
+      return "bank";
     case Rule::kSeparation:
       return "separation";
     case Rule::kBraid:
@@ -193,6 +212,8 @@ const char* name(Rule rule) {
       return "clearance";
     case Rule::kStiffness:
       return "stiffness";
+    case Rule::kSwing:
+      return "swing";
   }
   return "unknown";
 }
@@ -210,8 +231,20 @@ void judge_form(const Plan& plan, std::vector<Reason>& reasons) {
   if (!sound(plan.cable.stiffness_n_m) || plan.cable.stiffness_n_m < 0.0) {
     malformed(std::nullopt, "the cables' stiffness is no number, or negative; give it in N/m");
   }
+  if (!sound(plan.cable.damping_n_s_m) || plan.cable.damping_n_s_m < 0.0) {
+    malformed(std::nullopt, "the cables' damping is no number, or negative; give it in N s/m");
+  }
+  if (!lag(plan.winch.time_constant_s)) {
+    malformed(std::nullopt, "the winches' time constant is no number, or negative; give it in seconds");
+  }
   std::set<CarrierId> carriers;
   for (const Carrier& c : plan.carriers) {
+    if (!lag(c.vehicle.time_constant_s) ||
+        (c.vehicle.mass_kg && !(sound(*c.vehicle.mass_kg) && *c.vehicle.mass_kg > 0.0))) {
+      malformed(c.id, text("carrier %u: its vehicle's mass or time constant is no number, or negative; give a positive "
+                           "mass in kilograms, and the time constant in seconds",
+                           c.id));
+    }
     if (!carriers.insert(c.id).second) malformed(c.id, text("two carriers are carrier %u; number each its own", c.id));
     if (!sound(c.radius_m) || c.radius_m < 0.0) {
       malformed(c.id, text("carrier %u: its radius is no length; give the vehicle's, in metres", c.id));
@@ -267,14 +300,14 @@ void judge_construction(const Plan& plan, const std::vector<CarrierSlice>& slice
 
 void judge_carrier(const CarrierFigures& f, const Limits& limits, bool non_stop, std::vector<Reason>& reasons) {
   const CarrierId id = f.id;
-  if (f.tension_n.min <= 1e-6 * f.tension_n.max) {
+  if (slack(f)) {
     refuse(reasons, Rule::kTension, id,
            text("carrier %u: its tension falls to zero and the cable goes slack; lower the amplitudes of its edges or "
                 "raise their offsets",
                 id));
     return;  // without a direction no other figure means anything
   }
-  if (f.direction_cosine_min && *f.direction_cosine_min <= 0.0) {
+  if (loses_its_law(f)) {
     const bool vertical = !(f.vertical_cosine.min > 0.0 || f.vertical_cosine.max < 0.0);
     refuse(reasons, vertical ? Rule::kVerticalCosine : Rule::kDirectionCosine, id,
            text("carrier %u: its cable becomes perpendicular to the direction its length law projects on (u·q passes "
@@ -288,6 +321,15 @@ void judge_carrier(const CarrierFigures& f, const Limits& limits, bool non_stop,
            text("carrier %u: its cable length falls to %.6g m; a cable has to be longer than nothing: raise the "
                 "carrier's altitude (or profile, or mean length) above its attachment",
                 id, f.length_m.min));
+  } else if (f.paid_out_m.min <= 0.0) {
+    refuse(reasons, Rule::kLengthBounds, id,
+           text("carrier %u: its winch would have to have paid out %.6g m, because its tension stretches the cable by "
+                "as much as it is long; use stiffer cables, or longer ones",
+                id, f.paid_out_m.min));
+  } else if (!limits.length_min_m || f.length_m.min >= *limits.length_min_m) {
+    at_least({Rule::kLengthBounds, "paid-out length", " m", "length_min_m",
+              "use stiffer cables, or raise its altitude, profile or mean length"},
+             f.paid_out_m.min, limits.length_min_m, id, reasons);
   }
   at_least({Rule::kTension, "tension", " N", "tension_min_n", "lower the amplitudes of its edges or raise offsets"},
            f.tension_n.min, limits.tension_min_n, id, reasons);
@@ -321,6 +363,26 @@ void judge_carrier(const CarrierFigures& f, const Limits& limits, bool non_stop,
   at_least({Rule::kSpeed, "speed", " m/s", "speed_min_m_s",
             "raise the cycle's rate, or choose phases nearer to the edge headings"},
            f.speed_m_s.min, limits.speed_min_m_s, id, reasons);
+}
+
+void judge_machines(const CarrierFigures& f, const Winch& winch, const Vehicle& vehicle, std::vector<Reason>& reasons) {
+  if (slack(f) || loses_its_law(f)) return;  // judge_carrier says what there is to say
+  at_most({Rule::kWinch, "rate of what the winch pays out", " m/s", "winch.rate_max_m_s",
+           "lower the cycle's rate, choose phases nearer to the edge headings, or take a faster winch"},
+          f.paid_out_rate_max_m_s(), winch.rate_max_m_s, f.id, reasons);
+  at_most({Rule::kWinch, "acceleration of what the winch pays out", " m/s²", "winch.acceleration_max_m_s2",
+           "lower the cycle's rate, choose phases nearer to the edge headings, or take a stronger winch"},
+          f.winch_acceleration_max_m_s2, winch.acceleration_max_m_s2, f.id, reasons);
+  if (f.thrust_max_n) {
+    at_most({Rule::kThrust, "thrust", " N", "vehicle.thrust_max_n",
+             "lower the amplitudes or offsets of its edges, or the cycle's rate, or take a stronger vehicle"},
+            *f.thrust_max_n, vehicle.thrust_max_n, f.id, reasons);
+  }
+  if (f.bank_max_rad && vehicle.bank_max_rad) {
+    at_most({Rule::kBank, "bank", " degrees", "vehicle.bank_max_deg",
+             "lower the amplitudes or offsets of its edges, or the cycle's rate, or take a heavier vehicle"},
+            degrees(*f.bank_max_rad), degrees(*vehicle.bank_max_rad), f.id, reasons);
+  }
 }
 
 }  // namespace gyre::mechanics

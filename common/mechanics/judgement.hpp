@@ -25,6 +25,11 @@ void judge_form(const Plan& plan, std::vector<Reason>& reasons);
 /// finite break every limit they are held to.
 void judge_carrier(const CarrierFigures& figures, const Limits& limits, bool non_stop, std::vector<Reason>& reasons);
 
+/// The same figures against what the mission says that the winch and the vehicle can do. What is not known of a figure
+/// is not judged.
+void judge_machines(const CarrierFigures& figures, const Winch& winch, const Vehicle& vehicle,
+                    std::vector<Reason>& reasons);
+
 /// The paper's conditions for a motion that never stops and holds the load: number of carriers, rank, plane, phases.
 /// They explain; whether a carrier stops is decided by its exact least speed.
 void judge_construction(const Plan& plan, const std::vector<CarrierSlice>& slices, std::vector<Reason>& reasons);
@@ -42,5 +47,14 @@ void judge_clearance(const Approach& clearance, const Limits& limits, std::vecto
 
 /// Vehicles below the load's highest corner, or closer to it than the limit.
 void judge_above_load(double above_load_min_m, const Limits& limits, std::vector<Reason>& reasons);
+
+/// A swing of the load dies out, or at least does not grow, in full motion, with some margin.
+void judge_swings(const Swings& swings, std::vector<Reason>& reasons);
+
+/// At which paces, on the way from rest, one grows.
+void caution_of_swings(const Swings& swings, std::vector<Reason>& cautions);
+
+/// That the load is not pulled back at some moments.
+void caution_of_stiffness(double stiffness_min_1_s2, std::vector<Reason>& cautions);
 
 }  // namespace gyre::mechanics

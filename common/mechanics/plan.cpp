@@ -1,5 +1,6 @@
 #include "common/mechanics/plan.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -47,6 +48,12 @@ std::vector<Eigen::Vector3d> box_hull(const Eigen::Vector3d& half_edges_m, const
     }
   }
   return corners;
+}
+
+const Carrier* find(const Plan& plan, CarrierId id) {
+  const auto found =
+      std::find_if(plan.carriers.begin(), plan.carriers.end(), [id](const Carrier& c) { return c.id == id; });
+  return found == plan.carriers.end() ? nullptr : &*found;
 }
 
 std::vector<Eigen::Vector3d> lever_arms(const Plan& plan) {

@@ -104,6 +104,9 @@ struct Plan {
 [[nodiscard]] std::vector<Eigen::Vector3d> box_hull(const Eigen::Vector3d& half_edges_m,
                                                     const Eigen::Vector3d& centre_b_m);
 
+/// nullptr where the plan has none of this number.
+[[nodiscard]] const Carrier* find(const Plan& plan, CarrierId id);
+
 /// r_i = R b_i for every carrier, W.
 [[nodiscard]] std::vector<Eigen::Vector3d> lever_arms(const Plan& plan);
 

@@ -94,6 +94,13 @@ template <class S>
   return {f, s, q, l, constant_vector<S>(c.attachment_w_m) + l * q};
 }
 
+/// What the winch has paid out: the cable, short by what its tension stretches it, l − s / k. A stiffness of 0: no
+/// stretch is compensated, and it is l.
+template <class S>
+[[nodiscard]] inline Taylor<S> paid_out(const BasicReference<S>& r, double stiffness_n_m) {
+  return stiffness_n_m > 0.0 ? r.length_m - (1.0 / stiffness_n_m) * r.tension_n : r.length_m;
+}
+
 template <class S>
 [[nodiscard]] inline BasicReference<S> evaluate(const CarrierSlice& c, const S& t_s) {
   const TaylorVector<S> f = force(c, t_s);

@@ -8,26 +8,30 @@
 #include "common/base/angle.hpp"
 #include "common/mechanics/grasp.hpp"
 #include "common/mechanics/range.hpp"
-#include "common/mechanics/reference.hpp"
 
 namespace gyre::mechanics {
+
+void add_stiffness(const Cable& c, const Reference& reference, const Eigen::Vector3d& r_w_m, Matrix6d& k_load) {
+  const Eigen::Vector3d& f = reference.force_w_n.value;
+  const Eigen::Vector3d& q = reference.direction_w.value;
+  const Eigen::Matrix3d along = q * q.transpose();
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along;
+  const Eigen::Matrix3d turn = -skew(r_w_m);
+  const Eigen::Matrix3d moment = f * r_w_m.transpose();
+  // J' [k q q' + (s/l)(I − q q')] J + (0 (+) ((f·r) I − sym(f r'))),  J = [I, −[r]x]
+  const Eigen::Matrix3d held = c.stiffness_n_m * along + reference.tension_n.value / reference.length_m.value * across;
+  const Eigen::Matrix3d coupled = held * turn;
+  k_load.topLeftCorner<3, 3>() += held;
+  k_load.topRightCorner<3, 3>() += coupled;
+  k_load.bottomLeftCorner<3, 3>() += coupled.transpose();
+  k_load.bottomRightCorner<3, 3>() +=
+      turn.transpose() * coupled + f.dot(r_w_m) * Eigen::Matrix3d::Identity() - 0.5 * (moment + moment.transpose());
+}
 
 Matrix6d load_stiffness(const Plan& plan, const std::vector<CarrierSlice>& slices, double t_s) {
   Matrix6d k_load = Matrix6d::Zero();
   for (const CarrierSlice& slice : slices) {
-    const Reference reference = evaluate(slice, t_s);
-    const Eigen::Vector3d f = reference.force_w_n.value;
-    const Eigen::Vector3d q = reference.direction_w.value;
-    const Eigen::Vector3d r = slice.attachment_w_m - plan.load.position_w_m;
-    Eigen::Matrix<double, 3, 6> j;
-    j << Eigen::Matrix3d::Identity(), -skew(r);
-    const Eigen::Matrix3d along = q * q.transpose();
-    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along;
-    // K = sum J' [k q q' + (s/l)(I − q q')] J + (0 (+) ((f·r) I − sym(f r')))
-    k_load += j.transpose() *
-              (plan.cable.stiffness_n_m * along + reference.tension_n.value / reference.length_m.value * across) * j;
-    const Eigen::Matrix3d moment = f * r.transpose();
-    k_load.bottomRightCorner<3, 3>() += f.dot(r) * Eigen::Matrix3d::Identity() - 0.5 * (moment + moment.transpose());
+    add_stiffness(plan.cable, evaluate(slice, t_s), slice.attachment_w_m - plan.load.position_w_m, k_load);
   }
   return k_load;
 }

@@ -22,10 +22,14 @@
 
 #include "common/mechanics/carrier_slice.hpp"
 #include "common/mechanics/plan.hpp"
+#include "common/mechanics/reference.hpp"
 
 namespace gyre::mechanics {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// One cable's share of K: of cable `c` as `reference` has it, its attachment `r_w_m` from the load's place.
+void add_stiffness(const Cable& c, const Reference& reference, const Eigen::Vector3d& r_w_m, Matrix6d& k_load);
 
 /// K at one moment; rows and columns are (translation, rotation), W. `t_s` since the plan's epoch. Of cables that are
 /// taut and longer than nothing; not finite else.

@@ -148,4 +148,15 @@ template <class Quantity>
   return out;
 }
 
+/// What whoever follows with a first-order lag T, y' = (asked − y) / T, has to be asked for to do x: x + T x', and its
+/// rate. The second derivative stays that of x; the one after it, which would belong there, is not carried. It matters
+/// to whoever extrapolates: over a hundredth of a second by nothing.
+template <class Quantity>
+[[nodiscard]] inline Quantity led(const Quantity& x, double lag_s) {
+  Quantity out = x;
+  out.value = x.value + lag_s * x.first;
+  out.first = x.first + lag_s * x.second;
+  return out;
+}
+
 }  // namespace gyre::mechanics

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/base/angle.hpp"
 #include "common/mechanics/interval.hpp"
 
 namespace gyre::mechanics {
@@ -20,24 +21,29 @@ enum Figure : std::size_t {
   kAcceleration,
   kAltitude,
   kVerticalCosine,
+  kPaidOut,
+  kPaidOutRate,
+  kWinchAcceleration,
+  kThrust,
+  kBank,
   kFigures
 };
 using Enclosure = std::array<Interval, kFigures>;
 using Point = std::array<double, kFigures>;
 
-Point figures_at(const Reference& r) {
-  return {r.tension_n.value,
-          r.length_m.value,
-          r.length_m.first,
-          r.position_w_m.first.norm(),
-          r.position_w_m.second.norm(),
-          r.position_w_m.value.z(),
-          r.direction_w.value.z()};
-}
+using IntervalVector = std::array<Interval, 3>;
 
-Interval norm(const std::array<Interval, 3>& v) {
+Interval norm(const IntervalVector& v) {
   return boost::numeric::sqrt(boost::numeric::square(v[0]) + boost::numeric::square(v[1]) +
                               boost::numeric::square(v[2]));
+}
+
+/// The angle from the vertical: it grows with what is horizontal and falls with what is upright, so corners bound it.
+Interval bank(const IntervalVector& pull) {
+  const Interval side = boost::numeric::sqrt(boost::numeric::square(pull[0]) + boost::numeric::square(pull[1]));
+  const Interval& up = pull[2];
+  return {std::min(std::atan2(side.lower(), up.upper()), std::atan2(side.upper(), up.upper())),
+          std::max(std::atan2(side.lower(), up.lower()), std::atan2(side.upper(), up.lower()))};
 }
 
 /// What is no number (an infinite length times no direction) is bounded by nothing.
@@ -49,7 +55,8 @@ Range range_of(const Interval& interval) {
 
 class Window {
  public:
-  explicit Window(const std::vector<TimedLayer>& layers) : layers_(layers) {}
+  Window(const std::vector<TimedLayer>& layers, const std::optional<VehicleWeight>& vehicle)
+      : layers_(layers), stiffness_n_m_(layers.front().slice->cable_stiffness_n_m), vehicle_(vehicle) {}
 
   /// A cell that no transition starts or ends in.
   void enclose(double begin_s, double end_s, double narrowest_s) {
@@ -75,18 +82,42 @@ class Window {
   /// a level altitude by the length it is kept with, or no cell would ever be small enough.
   [[nodiscard]] double scale(std::size_t figure) const {
     const auto magnitude = [this](std::size_t i) { return std::max(std::abs(inner_[i].min), std::abs(inner_[i].max)); };
-    if (figure == kWinchRate) return std::max(magnitude(kWinchRate), magnitude(kSpeed));
+    if (figure == kWinchRate || figure == kPaidOutRate) return std::max(magnitude(figure), magnitude(kSpeed));
+    if (figure == kWinchAcceleration) return std::max(magnitude(figure), magnitude(kAcceleration));
+    if (figure == kBank) return 1.0;
     if (figure == kAltitude) return std::max(magnitude(kAltitude), magnitude(kLength));
     return magnitude(figure);
   }
 
   [[nodiscard]] bool tight(const Enclosure& enclosure) const {
     for (std::size_t i = 0; i < kFigures; ++i) {
-      const double slack = (i == kAcceleration ? kAccelerationSlack : kTransitionSlack) * scale(i);
+      const bool accelerates = i == kAcceleration || i == kWinchAcceleration || i == kThrust || i == kBank;
+      const double slack = (accelerates ? kAccelerationSlack : kTransitionSlack) * scale(i);
       if (!(enclosure[i].lower() >= inner_[i].min - slack && enclosure[i].upper() <= inner_[i].max + slack))
         return false;
     }
     return true;
+  }
+
+  [[nodiscard]] Point figures_at(const Reference& r) const {
+    const Taylor<double> winch = paid_out(r, stiffness_n_m_);
+    const double mass_kg = vehicle_ ? vehicle_->mass_kg : 0.0;
+    const double weight_n = vehicle_ ? mass_kg * vehicle_->gravity_m_s2 : 0.0;
+    const Eigen::Vector3d at_rest = r.force_w_n.value + weight_n * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d pull = at_rest + mass_kg * r.position_w_m.second;
+    const auto bank_of = [](const Eigen::Vector3d& n) { return std::atan2(n.head<2>().norm(), n.z()); };
+    return {r.tension_n.value,
+            r.length_m.value,
+            r.length_m.first,
+            r.position_w_m.first.norm(),
+            r.position_w_m.second.norm(),
+            r.position_w_m.value.z(),
+            r.direction_w.value.z(),
+            winch.value,
+            winch.first,
+            std::abs(winch.second),
+            vehicle_ ? std::max(at_rest.norm(), pull.norm()) : 0.0,
+            vehicle_ ? std::max(bank_of(at_rest), bank_of(pull)) : 0.0};
   }
 
   [[nodiscard]] Enclosure cell(double begin_s, double end_s, const Reference& at, const Point& point, double h) const {
@@ -106,20 +137,32 @@ class Window {
       return boost::numeric::overlap(centred, plain) ? boost::numeric::intersect(centred, plain)
                                                      : boost::numeric::hull(centred, plain);
     };
-    std::array<Interval, 3> v;
-    std::array<Interval, 3> a;
+    IntervalVector v;
+    IntervalVector a;
+    IntervalVector at_rest;
+    IntervalVector pull;
     for (int i = 0; i < 3; ++i) {
       const auto k = static_cast<std::size_t>(i);
       v[k] = mean_value(at.position_w_m.first[i], r.position_w_m.second[i], r.position_w_m.first[i]);
       a[k] = r.position_w_m.second[i];
+      if (!vehicle_) continue;
+      at_rest[k] = mean_value(at.force_w_n.value[i], r.force_w_n.first[i], r.force_w_n.value[i]);
+      if (i == 2) at_rest[k] += vehicle_->mass_kg * vehicle_->gravity_m_s2;
+      pull[k] = at_rest[k] + vehicle_->mass_kg * a[k];
     }
+    const Taylor<Interval> winch = paid_out(r, stiffness_n_m_);
     return {mean_value(point[kTension], r.tension_n.first, r.tension_n.value),
             mean_value(point[kLength], r.length_m.first, r.length_m.value),
             mean_value(point[kWinchRate], r.length_m.second, r.length_m.first),
             norm(v),
             norm(a),
             mean_value(point[kAltitude], r.position_w_m.first[2], r.position_w_m.value[2]),
-            mean_value(point[kVerticalCosine], r.direction_w.first[2], r.direction_w.value[2])};
+            mean_value(point[kVerticalCosine], r.direction_w.first[2], r.direction_w.value[2]),
+            mean_value(point[kPaidOut], winch.first, winch.value),
+            mean_value(point[kPaidOutRate], winch.second, winch.first),
+            boost::numeric::abs(winch.second),
+            boost::numeric::max(norm(at_rest), norm(pull)),
+            vehicle_ ? boost::numeric::max(bank(at_rest), bank(pull)) : Interval(0.0)};
   }
 
   static Taylor<Interval> weight(const TimedLayer& layer, double begin_s, double end_s) {
@@ -133,13 +176,16 @@ class Window {
   }
 
   const std::vector<TimedLayer>& layers_;
+  double stiffness_n_m_;  // of the bottom plan's slice, as agents go by
+  std::optional<VehicleWeight> vehicle_;
   std::array<Range, kFigures> inner_;  // what midpoints attain
   std::array<Range, kFigures> outer_;  // what is proven
 };
 
 }  // namespace
 
-CarrierFigures transition_figures(const std::vector<TimedLayer>& layers, double begin_s, double end_s) {
+CarrierFigures transition_figures(const std::vector<TimedLayer>& layers, double begin_s, double end_s,
+                                  const std::optional<VehicleWeight>& vehicle) {
   GYRE_ENSURE(!layers.empty() && layers.size() <= kMaxLayers && end_s > begin_s, "a window over a course");
   std::vector<double> cuts{begin_s, end_s};
   for (std::size_t i = 1; i < layers.size(); ++i) {
@@ -149,7 +195,7 @@ CarrierFigures transition_figures(const std::vector<TimedLayer>& layers, double 
   }
   std::sort(cuts.begin(), cuts.end());
 
-  Window window(layers);
+  Window window(layers, vehicle);
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
     constexpr int kCells = 16;
     const double width = (cuts[i + 1] - cuts[i]) / kCells;
@@ -166,6 +212,13 @@ CarrierFigures transition_figures(const std::vector<TimedLayer>& layers, double 
   figures.acceleration_max_m_s2 = window.range(kAcceleration).max;
   figures.altitude_m = window.range(kAltitude);
   figures.vertical_cosine = window.range(kVerticalCosine);
+  figures.paid_out_m = window.range(kPaidOut);
+  figures.paid_out_rate_m_s = window.range(kPaidOutRate);
+  figures.winch_acceleration_max_m_s2 = window.range(kWinchAcceleration).max;
+  if (vehicle) {
+    figures.thrust_max_n = window.range(kThrust).max;
+    figures.bank_max_rad = std::min(window.range(kBank).max, kPi);
+  }
   return figures;
 }
 

@@ -4,11 +4,13 @@
 // A mixture has no critical polynomial, so its extremes are enclosed: the same formulas (transition.hpp) are evaluated
 // in interval arithmetic on cells of time, with the mean value form, and cells are halved until the enclosure is tight.
 // The result holds every value of the window and is wider than the truth by at most kTransitionSlack of each figure's
-// greatest magnitude (winch rate: or the speed's; altitude: or the length's): a proof, not a sampling. Where cells get
-// as narrow as they may first (violent mixtures, cables near the plane of their law) it is wider, never wrong.
+// greatest magnitude (rates of the winch: or the speed's; altitude: or the length's), and by kAccelerationSlack where
+// an acceleration is in it (of the winch: or the carrier's; bank: of a radian): a proof, not a sampling. Where cells
+// get as narrow as they may first (violent mixtures, cables near the plane of their law) it is wider, never wrong.
 //
 // Reference: docs/design.md, facts 1 and 3; R. E. Moore, Interval Analysis.
 
+#include <optional>
 #include <vector>
 
 #include "common/mechanics/certificate.hpp"
@@ -23,7 +25,8 @@ inline constexpr double kAccelerationSlack = 1e-2;
 
 /// Over [begin_s, end_s] on the layers' clock, end after begin; `layers` as for evaluate_course (GYRE_ENSURE). Where a
 /// cable may go slack, or perpendicular to its law, figures are bounded by nothing: infinite.
-/// `direction_cosine_min` stays absent.
-[[nodiscard]] CarrierFigures transition_figures(const std::vector<TimedLayer>& layers, double begin_s, double end_s);
+/// `direction_cosine_min` stays absent, and without a `vehicle` so does what it pulls.
+[[nodiscard]] CarrierFigures transition_figures(const std::vector<TimedLayer>& layers, double begin_s, double end_s,
+                                                const std::optional<VehicleWeight>& vehicle = std::nullopt);
 
 }  // namespace gyre::mechanics

@@ -12,8 +12,4 @@ std::optional<mechanics::Reference> reference(const Course& course, SwarmTime no
                               paced(r.position_w_m)};
 }
 
-mechanics::Taylor<double> winch_length(const mechanics::Reference& r, double stiffness_n_m) {
-  return stiffness_n_m > 0.0 ? r.length_m - (1.0 / stiffness_n_m) * r.tension_n : r.length_m;
-}
-
 }  // namespace gyre::protocol

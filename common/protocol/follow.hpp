@@ -13,8 +13,4 @@ namespace gyre::protocol {
 [[nodiscard]] std::optional<mechanics::Reference> reference(const Course& course, SwarmTime now,
                                                             const SliceLookup& lookup);
 
-/// What the winch has paid out: the cable, short by what its tension stretches it, l0 = l − s / k. A stiffness of 0: no
-/// stretch is compensated.
-[[nodiscard]] mechanics::Taylor<double> winch_length(const mechanics::Reference& r, double stiffness_n_m);
-
 }  // namespace gyre::protocol

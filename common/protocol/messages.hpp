@@ -111,7 +111,9 @@ struct AgentStatus {
   std::string address;  ///< where this process is, for people; at most kMaxTextBytes
 };
 
-/// Topic carrier_N/setpoint, agent N to its vehicle.
+/// Topic carrier_N/setpoint, agent N to its vehicle. Place and winch are asked for ahead of where the plan has them, by
+/// the lags of the vehicle and the winch (mechanics/taylor.hpp, led); the cable's direction, tension and length are the
+/// plan's.
 struct Setpoint {
   CarrierId carrier = 0;
   std::uint64_t incarnation = 0;  ///< of the agent; a vehicle flies those of one agent at a time

@@ -91,7 +91,8 @@ bool sane(const mechanics::LengthLaw& law) {
 bool sane(const mechanics::CarrierSlice& slice) {
   return sane(slice.id) && sane(slice.attachment_w_m) && sane(slice.particular_force_w_n) && sane(slice.incoming) &&
          sane(slice.outgoing) && sane(slice.rate_rad_s) && slice.rate_rad_s > 0.0 && sane(slice.law) &&
-         sane(slice.cable_stiffness_n_m) && slice.cable_stiffness_n_m >= 0.0;
+         sane(slice.cable_stiffness_n_m) && slice.cable_stiffness_n_m >= 0.0 && sane(slice.winch_lag_s) &&
+         slice.winch_lag_s >= 0.0 && sane(slice.vehicle_lag_s) && slice.vehicle_lag_s >= 0.0;
 }
 
 }  // namespace

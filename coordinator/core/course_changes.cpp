@@ -48,7 +48,7 @@ std::vector<CarrierId> Leading::unconfirmed(LocalTime now) const {
 
 /// All that carriers may be doing while a ramp lasts: what is flown, what is about to be, and the mixture of them.
 RampLimits Leading::ramp_limits() const {
-  RampLimits out{job_.plan.limits, {}};
+  RampLimits out{job_.plan.limits, job_.plan.winch, {}};
   for (const mechanics::CarrierFigures& carrier : mixture_) out.include(carrier);
   std::vector<PlanNumber> plans = protocol::plans_of(course_);
   if (plan_ != plans.back()) plans.push_back(plan_);
@@ -234,6 +234,11 @@ void Leading::pursue(LocalTime now, Outputs& out) {
       schedule(now);
       break;
     case Agreement::Step::kGo:
+      // A mixture asks more of the clocks than either plan. Where nobody knows the plan in force, it goes all the same.
+      if (agreement_->intent().plan && agreement_->intent().rehearsed) {
+        const auto why = beyond_budget(swarm_.skew(now), skew_budget(agreement_->proposal()));
+        if (why) return give_up(now, *why, out);
+      }
       go(now, out);
       break;
     case Agreement::Step::kGiveUp:

@@ -9,6 +9,7 @@
 #include "common/base/notice.hpp"
 #include "common/base/result.hpp"
 #include "common/mechanics/plan.hpp"
+#include "common/mechanics/swing.hpp"
 #include "common/protocol/messages.hpp"
 #include "common/protocol/silence.hpp"
 #include "coordinator/core/agreement.hpp"
@@ -19,6 +20,7 @@ namespace gyre::coordinator {
 struct Job {
   std::string name;
   mechanics::Plan plan;
+  std::optional<mechanics::Swings> swings;  ///< from its certificate; absent: not judged
   /// How long a change takes, of plan or of pace; absent: as short as it keeps all limits, but no shorter than
   /// shortest_transition.
   std::optional<Duration> transition;

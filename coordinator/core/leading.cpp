@@ -67,7 +67,7 @@ void Leading::tick(LocalTime now, Outputs& out) {
   }
   desk_.keep_promises(now, course_.wish, news_.latest, why_unsafe(now), out.replies);
   // Of n slices: not for every beacon.
-  if (settled || now >= next_status_) budget_in_force_ = skew_budget(protocol::plans_of(course_));
+  if (settled || now >= next_status_) budget_in_force_ = skew_budget(course_);
   if (consensus_.doubtful(swarm_.carriers)) {
     out.beacon = protocol::Beacon{term_, ++sequence_, time, course_, std::nullopt, budget_in_force_};
     return;
@@ -183,6 +183,10 @@ std::optional<std::string> Leading::command_obstacle(LocalTime now, const protoc
       if (auto why = too_slow(command.pace, job_.plan.limits, plans_.figures(protocol::plans_of(course_).back()))) {
         return why;
       }
+      // A plan learned from the agents came without its certificate.
+      if (protocol::plans_of(course_).back() == plan_) {
+        if (auto why = swing_grows(command.pace, job_.swings)) return why;
+      }
       if (safe && course_.wish.pace == command.pace && !course_.wish.rest_when_changed && target == command.pace) {
         return "already at that pace";
       }
@@ -252,6 +256,7 @@ void Leading::retune(LocalTime now, const Retune& retune, Outputs& out) {
     return refuse("too many transitions are under way; wait until they are complete");
   }
   if (const auto why = load_obstacle(job_.plan, retune.job.value().plan)) return refuse(*why);
+  if (const auto why = swing_grows(course_.pace.target(), retune.job.value().swings)) return refuse(*why);
   before_retune_ = Mission{job_, plan_};
   job_ = retune.job.value();
   plan_ = plans_.add(term_, by_carrier(mechanics::slices(job_.plan)), "motion");
@@ -321,7 +326,9 @@ std::optional<std::string> Leading::obstacle(LocalTime now, bool departs) const 
 std::optional<std::string> Leading::plan_obstacle(LocalTime now, const PlanNumber& plan) const {
   if (auto refusal = swarm_.refusal_of(plan)) return refusal;
   if (const auto gone = swarm_.why_out_of_touch(now)) return *gone + ", and cannot say whether it can be flown";
-  return beyond_budget(swarm_.skew(now), skew_budget({plan}));
+  protocol::Course alone;
+  alone.base.number = plan;
+  return beyond_budget(swarm_.skew(now), skew_budget(alone));
 }
 
 // ------------------------------------------------------------------------------------------------------------ wishes
@@ -368,13 +375,15 @@ void Leading::offer_plans(Outputs& out) {
   }
 }
 
-Duration Leading::skew_budget(const std::vector<PlanNumber>& plans) const {
-  constexpr double kForever_s = 1e6;
-  double budget_s = kForever_s;
-  const double weight_n = job_.plan.load.mass_kg * job_.plan.gravity_m_s2;
-  for (const PlanNumber& plan : plans) {
-    budget_s = std::min(budget_s, mechanics::skew_budget_s(plans_.slices(plan), weight_n));
+/// Of the carriers whose plans are known; its transitions included.
+Duration Leading::skew_budget(const protocol::Course& course) const {
+  std::vector<std::vector<mechanics::TimedLayer>> stacks;
+  for (const CarrierId id : swarm_.carriers) {
+    const auto slice = [&](const PlanNumber& number) { return plans_.slice(number, id); };
+    stacks.push_back(protocol::layers(course, course.base.epoch, slice));
   }
+  constexpr double kForever_s = 1e6;
+  const double budget_s = mechanics::skew_budget_s(stacks, job_.plan.load.mass_kg * job_.plan.gravity_m_s2);
   return budget_s < kForever_s ? from_seconds(budget_s) : Duration::zero();
 }
 

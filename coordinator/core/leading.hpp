@@ -73,7 +73,7 @@ class Leading {
   [[nodiscard]] bool is_unbegun(SwarmTime now) const;
   /// Until a retune is agreed, and all were seen to follow, the one before it.
   [[nodiscard]] const Job& mission_in_force() const { return before_retune_ ? before_retune_->job : job_; }
-  [[nodiscard]] Duration skew_budget(const std::vector<protocol::PlanNumber>& plans) const;
+  [[nodiscard]] Duration skew_budget(const protocol::Course& course) const;
   [[nodiscard]] protocol::CoordinatorStatus status(LocalTime now) const;
   void offer_plans(Outputs& out);
 

@@ -39,6 +39,11 @@ std::optional<std::string> load_obstacle(const mechanics::Plan& flown, const mec
       flown.cable.compensate_stretch != wanted.cable.compensate_stretch) {
     return "the cables' stiffness, or whether their stretch is compensated, differs from the ones that are flown";
   }
+  // So is the winch the same machine: asked for less or more ahead, it would step by the difference times its rate.
+  if (!alike(flown.winch.time_constant_s, wanted.winch.time_constant_s)) {
+    return text("its winches lag by %.6g s, those that are flown by %.6g s", wanted.winch.time_constant_s,
+                flown.winch.time_constant_s);
+  }
   if (flown.carriers.size() != wanted.carriers.size()) {
     return text("it has %zu carriers, %zu are flying", wanted.carriers.size(), flown.carriers.size());
   }
@@ -50,6 +55,10 @@ std::optional<std::string> load_obstacle(const mechanics::Plan& flown, const mec
     if (same == nullptr) return text("it has no carrier %u, which is flying", carrier.id);
     if ((same->attachment_b_m - carrier.attachment_b_m).norm() > kLength_m) {
       return text("carrier %u is attached elsewhere on the load than the one that is flying", carrier.id);
+    }
+    if (!alike(same->vehicle.time_constant_s, carrier.vehicle.time_constant_s)) {
+      return text("carrier %u lags by %.6g s, the one that is flying by %.6g s", carrier.id,
+                  same->vehicle.time_constant_s, carrier.vehicle.time_constant_s);
     }
   }
   return std::nullopt;
@@ -74,6 +83,10 @@ std::optional<std::string> load_obstacle(const Slices& flown, const Slices& want
           "carrier %u flies with cables of another stiffness (%.6g N/m, %.6g in this mission), or otherwise "
           "compensated",
           carrier, slice.cable_stiffness_n_m, own.cable_stiffness_n_m);
+    }
+    if (!alike(slice.winch_lag_s, own.winch_lag_s) || !alike(slice.vehicle_lag_s, own.vehicle_lag_s)) {
+      return text("carrier %u flies with another lag of its winch or vehicle (%.6g and %.6g s, %.6g and %.6g here)",
+                  carrier, slice.winch_lag_s, slice.vehicle_lag_s, own.winch_lag_s, own.vehicle_lag_s);
     }
   }
   return std::nullopt;

@@ -21,7 +21,8 @@ bool breaks(double value, const std::optional<double>& limit) {
 void RampLimits::include(const mechanics::CarrierFigures& carrier) {
   const auto asks_more = [](const mechanics::CarrierFigures& a, const mechanics::CarrierFigures& b) {
     return a.speed_m_s.max >= b.speed_m_s.max && a.acceleration_max_m_s2 >= b.acceleration_max_m_s2 &&
-           a.winch_rate_max_m_s() >= b.winch_rate_max_m_s();
+           a.winch_rate_max_m_s() >= b.winch_rate_max_m_s() && a.paid_out_rate_max_m_s() >= b.paid_out_rate_max_m_s() &&
+           a.winch_acceleration_max_m_s2 >= b.winch_acceleration_max_m_s2;
   };
   for (const mechanics::CarrierFigures& other : figures) {
     if (asks_more(other, carrier)) return;
@@ -38,8 +39,17 @@ std::optional<std::string> RampLimits::broken_by(const protocol::Ramp& ramp) con
       return text("carrier %u: acceleration up to %.4g m/s^2, allowed %.4g", c.id, peak.acceleration_m_s2,
                   *limits.acceleration_max_m_s2);
     }
+    if (winch.acceleration_max_m_s2) {
+      const double acceleration_m_s2 =
+          protocol::peaks(ramp, c.paid_out_rate_max_m_s(), c.winch_acceleration_max_m_s2).acceleration_m_s2;
+      if (breaks(acceleration_m_s2, winch.acceleration_max_m_s2)) {
+        return text("carrier %u: its winch accelerated by up to %.4g m/s^2, allowed %.4g", c.id, acceleration_m_s2,
+                    *winch.acceleration_max_m_s2);
+      }
+    }
     if (peak.pace > 1.0 && (breaks(peak.pace * c.speed_m_s.max, limits.speed_max_m_s) ||
-                            breaks(peak.pace * c.winch_rate_max_m_s(), limits.winch_rate_max_m_s))) {
+                            breaks(peak.pace * c.winch_rate_max_m_s(), limits.winch_rate_max_m_s) ||
+                            breaks(peak.pace * c.paid_out_rate_max_m_s(), winch.rate_max_m_s))) {
       return text("carrier %u: it would run at up to %.4g of its pace", c.id, peak.pace);
     }
   }
@@ -92,6 +102,15 @@ std::optional<std::string> too_slow(double pace, const mechanics::Limits& limits
     }
   }
   return std::nullopt;
+}
+
+std::optional<std::string> swing_grows(double pace, const std::optional<mechanics::Swings>& swings) {
+  if (!swings || pace <= 0.0 || pace >= 1.0) return std::nullopt;
+  const double growth_1_s = swings->growth_at(pace);
+  if (growth_1_s <= mechanics::kNeutralGrowth_1_s) return std::nullopt;
+  return text(
+      "at %.3g of full pace a swing of the load grows by up to %.2g/s: it may be passed, and nobody stays there", pace,
+      growth_1_s);
 }
 
 }  // namespace gyre::coordinator

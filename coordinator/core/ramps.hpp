@@ -13,9 +13,12 @@
 
 namespace gyre::coordinator {
 
-/// What a ramp has to keep: the limits, by all that the carriers may be doing at full pace meanwhile.
+/// What a ramp has to keep: the limits, and what winches can do, by all that the carriers may be doing at full pace
+/// meanwhile. What a winch pays out passes by plan time as a carrier's place does, so the same formula bounds it:
+/// |L''| <= pace² |L''|max + |pace'| |L'|max.
 struct RampLimits {
   mechanics::Limits limits;
+  mechanics::Winch winch;
   std::vector<mechanics::CarrierFigures> figures;  ///< of every plan in use, and of mixtures of them; any order
 
   /// One more, unless another asks for more in everything: of a hundred carriers alike one is left to look at.
@@ -46,5 +49,8 @@ struct RampWish {
 /// it may. `figures`: of what is flown.
 [[nodiscard]] std::optional<std::string> too_slow(double pace, const mechanics::Limits& limits,
                                                   const std::vector<mechanics::CarrierFigures>& figures);
+
+/// Whether a swing of the load would grow at this pace, for good. On the way it may: a ramp is soon over.
+[[nodiscard]] std::optional<std::string> swing_grows(double pace, const std::optional<mechanics::Swings>& swings);
 
 }  // namespace gyre::coordinator

@@ -1,7 +1,5 @@
 #include "coordinator/core/rehearsal.hpp"
 
-#include <algorithm>
-
 #include "common/mechanics/clearance.hpp"
 #include "common/mechanics/judgement.hpp"
 #include "common/mechanics/load_hull.hpp"
@@ -9,8 +7,8 @@
 
 namespace gyre::coordinator {
 
-Rehearsal::Rehearsal(std::vector<std::vector<mechanics::TimedLayer>> stacks, const mechanics::Plan& plan)
-    : stacks_(std::move(stacks)), plan_(plan) {
+Rehearsal::Rehearsal(std::vector<std::vector<mechanics::TimedLayer>> stacks, mechanics::Plan plan)
+    : stacks_(std::move(stacks)), plan_(std::move(plan)) {
   const mechanics::TimedLayer& top = stacks_.front().back();
   begin_s_ = top.start_s;
   end_s_ = top.start_s + top.duration_s;
@@ -19,8 +17,13 @@ Rehearsal::Rehearsal(std::vector<std::vector<mechanics::TimedLayer>> stacks, con
 bool Rehearsal::advance() {
   if (!reasons_.empty() || apart_) return true;
   if (figures_.size() < stacks_.size()) {
-    figures_.push_back(mechanics::transition_figures(stacks_[figures_.size()], begin_s_, end_s_));
+    const auto& stack = stacks_[figures_.size()];
+    const mechanics::Carrier* carrier = mechanics::find(plan_, stack.front().slice->id);
+    const mechanics::Vehicle vehicle = carrier == nullptr ? mechanics::Vehicle{} : carrier->vehicle;
+    figures_.push_back(
+        mechanics::transition_figures(stack, begin_s_, end_s_, mechanics::weight(vehicle, plan_.gravity_m_s2)));
     mechanics::judge_carrier(figures_.back(), plan_.limits, false, reasons_);
+    mechanics::judge_machines(figures_.back(), plan_.winch, vehicle, reasons_);
     return !reasons_.empty();
   }
   judge_apart();
@@ -32,9 +35,8 @@ void Rehearsal::judge_apart() {
   std::vector<mechanics::Hanging> carriers;
   for (std::size_t i = 0; i < stacks_.size(); ++i) {
     const mechanics::CarrierSlice& slice = *stacks_[i].back().slice;
-    const auto same = [&slice](const mechanics::Carrier& carrier) { return carrier.id == slice.id; };
-    const auto carrier = std::find_if(plan_.carriers.begin(), plan_.carriers.end(), same);
-    carriers.push_back({slice.id, slice.attachment_w_m, carrier == plan_.carriers.end() ? 0.0 : carrier->radius_m,
+    const mechanics::Carrier* carrier = mechanics::find(plan_, slice.id);
+    carriers.push_back({slice.id, slice.attachment_w_m, carrier == nullptr ? 0.0 : carrier->radius_m,
                         figures_[i].altitude_m.min, figures_[i].acceleration_max_m_s2,
                         [&stack = stacks_[i]](double t_s) {
                           return mechanics::evaluate_course(stack.data(), stack.size(), t_s).position_w_m;

@@ -1,7 +1,8 @@
 #pragma once
-// Before a transition is proposed, it is rehearsed: proven to keep every carrier within the mission's limits, and from
-// touching anything, at every moment of it. The least speed excepted: it is the motion's, and a transition may begin or
-// end at rest. What to do when a limit breaks is for the agreement to say.
+// Before a transition is proposed, it is rehearsed: proven to keep every carrier within the mission's limits, its winch
+// and its vehicle within what they can do, and all from touching anything, at every moment of it. The least speed
+// excepted: it is the motion's, and a transition may begin or end at rest. What to do when a limit breaks is for the
+// agreement to say.
 //
 // A rehearsal is done one carrier at a time, because a proof takes tens of milliseconds and the beacon must not wait.
 
@@ -15,8 +16,8 @@ namespace gyre::coordinator {
 class Rehearsal {
  public:
   /// `stacks[i]`: carrier i's layers with the transition on top, in seconds on one clock; the slices must outlive this.
-  /// `plan`: what limits there are, how big vehicles and load are.
-  Rehearsal(std::vector<std::vector<mechanics::TimedLayer>> stacks, const mechanics::Plan& plan);
+  /// `plan`: whose limits, winches and vehicles they are held to, and how big vehicles and load are.
+  Rehearsal(std::vector<std::vector<mechanics::TimedLayer>> stacks, mechanics::Plan plan);
 
   /// One carrier's proof, or at the end that of all: nothing touches. True when nothing is left to do.
   bool advance();

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <optional>
 
+#include "common/base/angle.hpp"
+
 namespace gyre::ground {
 namespace {
 
@@ -53,7 +55,22 @@ Json carrier_json(const mechanics::CarrierFigures& carrier) {
           {"altitude_swing_m", figure(carrier.altitude_m.span())},
           {"vertical_cosine_min", figure(carrier.vertical_cosine.min)},
           {"vertical_cosine_max", figure(carrier.vertical_cosine.max)},
-          {"direction_cosine_min", figure(carrier.direction_cosine_min)}};
+          {"direction_cosine_min", figure(carrier.direction_cosine_min)},
+          {"winch_paid_out_min_m", figure(carrier.paid_out_m.min)},
+          {"winch_paid_out_max_m", figure(carrier.paid_out_m.max)},
+          {"winch_paid_out_rate_max_m_s", figure(carrier.paid_out_rate_max_m_s())},
+          {"winch_acceleration_max_m_s2", figure(carrier.winch_acceleration_max_m_s2)},
+          {"thrust_max_n", figure(carrier.thrust_max_n)},
+          {"bank_max_deg", carrier.bank_max_rad ? figure(degrees(*carrier.bank_max_rad)) : Json(nullptr)}};
+}
+
+Json paces_json(const std::optional<mechanics::Swings>& swings) {
+  if (!swings) return nullptr;
+  Json out = Json::array();
+  for (const mechanics::PaceGrowth& p : swings->paces) {
+    out.push_back({{"pace", p.pace}, {"growth_1_s", figure(p.growth_1_s)}});
+  }
+  return out;
 }
 
 }  // namespace
@@ -75,6 +92,8 @@ Json certificate_json(const std::string& mission_name, const mechanics::Certific
           {"skew_budget_s", figure(skew, &mechanics::SkewBudget::budget_s)},
           {"skew_residual_n_per_s", figure(skew, &mechanics::SkewBudget::residual_n_per_s)},
           {"skew_displacement_m_per_s", figure(skew, &mechanics::SkewBudget::displacement_m_per_s)},
+          {"skew_moment_n_m_per_s", figure(skew, &mechanics::SkewBudget::residual_n_m_per_s)},
+          {"lag_error_displacement_m", figure(certificate.lag_error_displacement_m)},
           {"holdover_s", figure(skew, &mechanics::SkewBudget::holdover_s)},
           {"silence_stop_after_s", silence.stop_after ? Json(seconds(*silence.stop_after)) : Json(nullptr)},
           {"carrier_separation_min_m", figure(separation, &mechanics::Approach::min_m)},
@@ -87,6 +106,9 @@ Json certificate_json(const std::string& mission_name, const mechanics::Certific
           {"clearance_at_s", figure(clearance, &mechanics::Approach::at_s)},
           {"above_load_min_m", figure(certificate.above_load_min_m)},
           {"stiffness_min_1_s2", figure(certificate.stiffness_min_1_s2)},
+          {"swing_growth_1_s", figure(certificate.swings, &mechanics::Swings::growth_1_s)},
+          {"swing_growth_worst_1_s", figure(certificate.swings, &mechanics::Swings::worst_1_s)},
+          {"swing_paces", paces_json(certificate.swings)},
           {"carriers", carriers}};
 }
 

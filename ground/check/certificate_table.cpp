@@ -6,7 +6,9 @@
 #include <sstream>
 #include <vector>
 
+#include "common/base/angle.hpp"
 #include "common/base/text.hpp"
+#include "common/mechanics/lag.hpp"
 #include "ground/text_table.hpp"
 
 namespace gyre::ground {
@@ -113,6 +115,20 @@ std::string stiffness_line(const std::optional<double>& stiffness_min_1_s2) {
   return stiffness_min_1_s2 ? number_text(*stiffness_min_1_s2) + " 1/s^2 at its softest" : "-";
 }
 
+std::string growth_text(double growth_1_s) {
+  if (growth_1_s > mechanics::kNeutralGrowth_1_s) return "one grows by " + number_text(growth_1_s) + " 1/s";
+  if (growth_1_s < -mechanics::kNeutralGrowth_1_s)
+    return "all die out, the slowest by " + number_text(-growth_1_s) + " 1/s";
+  return "none grows, and one goes on for hours";
+}
+
+std::string swing_line(const std::optional<mechanics::Swings>& swings) {
+  if (!swings) return "-";
+  const std::string margin = text("; within %.0f %% of rate and inertia ", 100.0 * mechanics::kSwingMargin);
+  return marked(growth_text(swings->growth_1_s) + margin + growth_text(swings->worst_1_s),
+                swings->worst_1_s > mechanics::kNeutralGrowth_1_s);
+}
+
 std::string skew_line(const std::optional<mechanics::SkewBudget>& budget) {
   if (!budget) return "-";
   const mechanics::SkewBudget& skew = *budget;
@@ -120,6 +136,35 @@ std::string skew_line(const std::optional<mechanics::SkewBudget>& budget) {
   return "up to " + number_text(1e3 * skew.budget_s) + " ms keep the residual under " +
          text("%.0f %%", 100.0 * mechanics::kSkewShare) + " of the weight; " + number_text(skew.residual_n_per_s) +
          " N and " + number_text(1e3 * skew.displacement_m_per_s) + " mm per second of it";
+}
+
+std::string winches_line(const Certificate& certificate) {
+  Range length, rate, acceleration;
+  for (const CarrierFigures& figures : certificate.carriers) {
+    length.include(figures.paid_out_m);
+    rate.include(figures.paid_out_rate_max_m_s());
+    acceleration.include(figures.winch_acceleration_max_m_s2);
+  }
+  if (!std::isfinite(length.min) || !std::isfinite(length.max)) return "-";
+  return "pay out " + range_text(length) + " m, by up to " + number_text(rate.max) + " m/s and " +
+         number_text(acceleration.max) + " m/s^2";
+}
+
+std::string vehicles_line(const Certificate& certificate) {
+  Range thrust, bank;
+  for (const CarrierFigures& figures : certificate.carriers) {
+    if (figures.thrust_max_n) thrust.include(*figures.thrust_max_n);
+    if (figures.bank_max_rad) bank.include(degrees(*figures.bank_max_rad));
+  }
+  if (!std::isfinite(thrust.max)) return "-";
+  return "pull up to " + number_text(thrust.max) + " N, at up to " + number_text(bank.max) + " degrees";
+}
+
+std::string lag_line(const std::optional<double>& displacement_m) {
+  if (!displacement_m || !std::isfinite(*displacement_m)) return "-";
+  if (*displacement_m == 0.0) return "nothing is said to lag";
+  return "lags that are " + text("%.0f %%", 100.0 * mechanics::kLagError) + " off move the load by " +
+         number_text(1e3 * *displacement_m) + " mm";
 }
 
 /// What the swarm does without a word, and how long that is good for where it flies on.
@@ -148,7 +193,11 @@ std::string certificate_table(const std::string& mission_name, const Limits& lim
   out += "  clearance          " + clearance_line(limits, certificate) + "\n";
   out += "  wrench error       " + text("%.2g", certificate.wrench_error_max_n) + " N at most\n";
   out += "  load stiffness     " + stiffness_line(certificate.stiffness_min_1_s2) + "\n";
+  out += "  swings             " + swing_line(certificate.swings) + "\n";
   out += "  clock skew         " + skew_line(certificate.skew) + "\n";
+  out += "  winches            " + winches_line(certificate) + "\n";
+  out += "  vehicles           " + vehicles_line(certificate) + "\n";
+  out += "  lag                " + lag_line(certificate.lag_error_displacement_m) + "\n";
   out += "  silence            " + silence_line(silence, certificate.skew) + "\n";
   if (!certificate.admissible()) out += "\nWhy, and what would cure it:\n" + listed(certificate.reasons);
   if (!certificate.cautions.empty()) out += "\nNot forbidden, but look at it:\n" + listed(certificate.cautions);

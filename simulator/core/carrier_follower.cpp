@@ -1,21 +1,21 @@
 #include "simulator/core/carrier_follower.hpp"
 
-#include <cmath>
+#include <algorithm>
 
-#include "common/base/ensure.hpp"
 #include "simulator/core/extrapolation.hpp"
 
 namespace gyre::simulator {
 
-CarrierFollower::CarrierFollower(const Eigen::Vector3d& rest_position_w_m, std::optional<double> lag_s,
-                                 OnSilence on_silence)
-    : lag_s_(lag_s), on_silence_(on_silence) {
-  GYRE_ENSURE(!lag_s || *lag_s > 0.0, "a lag is positive; no lag is absent");
+CarrierFollower::CarrierFollower(const Eigen::Vector3d& rest_position_w_m, double lag_s, OnSilence on_silence,
+                                 double tick_s)
+    : lag_s_(lag_s > 0.0 ? std::max(lag_s, tick_s) : 0.0),
+      tick_s_(tick_s),
+      on_silence_(on_silence),
+      body_(rest_position_w_m, Eigen::Vector3d::Zero()) {
   target_.position_w_m = rest_position_w_m;
 }
 
 void CarrierFollower::command(const CarrierTarget& target, double held_s, double now_s, Hand hand) {
-  const Eigen::Vector3d place = at(now_s).position_w_m;
   const CarrierMotion before = asked(now_s);
   const bool slowed_down = led_ && (now_s - target_since_s_ > kExtrapolationHorizon_s || now_s > brakes_at_s_);
   led_ = true;
@@ -29,8 +29,12 @@ void CarrierFollower::command(const CarrierTarget& target, double held_s, double
     const CarrierMotion wanted = asked(now_s);
     catch_up_.begin({before.position_w_m - wanted.position_w_m, before.velocity_w_m_s - wanted.velocity_w_m_s}, now_s);
   }
-  error_w_m_ = asked(now_s).position_w_m - place;
-  error_since_s_ = now_s;
+}
+
+void CarrierFollower::tick(double now_s) {
+  if (lag_s_ == 0.0) return;
+  using Body = DigitalLoop<Eigen::Vector3d>;
+  body_.go(now_s, tick_s_, Body::lagging(body_.at(now_s), asked(now_s + tick_s_).position_w_m, lag_s_, tick_s_));
 }
 
 CarrierMotion CarrierFollower::led(double t_s) const {
@@ -50,12 +54,9 @@ CarrierMotion CarrierFollower::asked(double t_s) const {
 }
 
 CarrierMotion CarrierFollower::at(double t_s) const {
-  CarrierMotion motion = asked(t_s);
-  if (!lag_s_) return motion;
-  const Eigen::Vector3d error = std::exp(-(t_s - error_since_s_) / *lag_s_) * error_w_m_;
-  motion.position_w_m -= error;
-  motion.velocity_w_m_s += error / *lag_s_;
-  return motion;
+  if (lag_s_ == 0.0) return asked(t_s);
+  const auto motion = body_.at(t_s);
+  return {motion.value, motion.rate};
 }
 
 }  // namespace gyre::simulator

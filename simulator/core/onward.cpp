@@ -27,13 +27,15 @@ std::optional<protocol::Setpoint> Onward::at(SwarmTime now) const {
   const auto r = protocol::reference(course_, now, lookup);
   if (!r) return std::nullopt;
   const mechanics::CarrierSlice& slice = *lookup(course_.base.number);
-  const mechanics::Taylor<double> winch = protocol::winch_length(*r, slice.cable_stiffness_n_m);
+  // As its agent would ask: ahead by what the winch and the vehicle lag.
+  const auto place = mechanics::led(r->position_w_m, slice.vehicle_lag_s);
+  const auto winch = mechanics::led(mechanics::paid_out(*r, slice.cable_stiffness_n_m), slice.winch_lag_s);
   protocol::Setpoint s;
   s.carrier = slice.id;
   s.swarm_time = now;
-  s.position_w_m = r->position_w_m.value;
-  s.velocity_w_m_s = r->position_w_m.first;
-  s.acceleration_w_m_s2 = r->position_w_m.second;
+  s.position_w_m = place.value;
+  s.velocity_w_m_s = place.first;
+  s.acceleration_w_m_s2 = place.second;
   s.direction_w = r->direction_w.value;
   s.tension_n = r->tension_n.value;
   s.cable_length_m = r->length_m.value;

@@ -1,5 +1,6 @@
 #pragma once
-// What a mission may say about the twin: how carriers and winches behave, what the wind does, how time is cut.
+// What a mission may say about the twin: how it differs from what the plan says of its vehicles and winches, what the
+// wind does, how time is cut.
 
 #include <cstdint>
 #include <optional>
@@ -12,10 +13,9 @@
 namespace gyre::simulator {
 
 struct SimulationSettings {
-  std::optional<double> carrier_lag_s;          ///< absent: carriers realise setpoints exactly
-  std::optional<double> winch_time_constant_s;  ///< less than three ticks counts as three ticks
-  std::optional<double> winch_rate_limit_m_s;   ///< with neither of these, winches are exact
-  std::set<CarrierId> holds;                    ///< whose vehicles brake without setpoints; the others go on
+  std::optional<double> carrier_lag_s;  ///< of every carrier, which no agent knows of; absent: as the plan says
+  double lag_error = 0.0;               ///< winches and vehicles lag by 1 + this times what the plan says
+  std::set<CarrierId> holds;            ///< whose vehicles brake without setpoints; the others go on
   WindSettings wind;
   std::uint64_t seed = 1;
   Duration tick = std::chrono::milliseconds(2);

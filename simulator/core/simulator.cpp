@@ -68,6 +68,9 @@ std::optional<Error> objection(const mechanics::Plan& plan, const SimulationSett
   if (settings.carrier_lag_s && !(*settings.carrier_lag_s > 0.0)) {
     return Error{"simulation: the carriers' time constant has to be positive; leave it out for exact carriers"};
   }
+  if (!(settings.lag_error >= -1.0)) {
+    return Error{"simulation: lags cannot be wrong by more than all of them; lag_error is -1 at least"};
+  }
   if (!(settings.wind.gust_time_scale_s > 0.0) || !(settings.wind.gust_deviation_n >= 0.0)) {
     return Error{"simulation: wind gusts need a positive time scale and a deviation that is not negative"};
   }
@@ -196,6 +199,7 @@ struct Simulator::World {
     }
     for (Vehicle& vehicle : vehicles) {
       go_on(vehicle, begin_s);
+      vehicle.follower.tick(begin_s);
       vehicle.winch.tick(begin_s);
     }
     wind.tick(begin_s);
@@ -288,11 +292,15 @@ Result<Simulator> Simulator::create(const mechanics::Plan& plan, const Simulatio
                    " N, which is no cable to simulate; look at its length law, and at cable.stiffness_n_m"};
     }
     const OnSilence on_silence = settings.holds.count(slice.id) != 0 ? OnSilence::kHolds : OnSilence::kGoesOn;
+    const double tick_s = seconds(settings.tick);
+    const double wrong = 1.0 + settings.lag_error;
+    const mechanics::Winch& winch = plan.winch;
     vehicles.push_back(
         {slice.id,
          on_silence,
-         CarrierFollower(rest.position_w_m.value, settings.carrier_lag_s, on_silence),
-         Winch(unstretched_m, {settings.winch_time_constant_s, settings.winch_rate_limit_m_s, seconds(settings.tick)},
+         CarrierFollower(rest.position_w_m.value, settings.carrier_lag_s.value_or(wrong * slice.vehicle_lag_s),
+                         on_silence, tick_s),
+         Winch(unstretched_m, {wrong * winch.time_constant_s, winch.rate_max_m_s, winch.acceleration_max_m_s2, tick_s},
                on_silence),
          AgeJudge(),
          protocol::Liveness(kLongestSilence),

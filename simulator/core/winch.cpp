@@ -8,13 +8,9 @@
 namespace gyre::simulator {
 
 Winch::Winch(double rest_length_m, const WinchSettings& settings, OnSilence on_silence)
-    : exact_(!settings.time_constant_s && !settings.rate_limit_m_s),
-      time_constant_s_(std::max(settings.time_constant_s.value_or(0.0), 3.0 * settings.tick_s)),
-      rate_limit_m_s_(settings.rate_limit_m_s),
-      tick_s_(settings.tick_s),
-      on_silence_(on_silence) {
+    : settings_(settings), on_silence_(on_silence), drum_(rest_length_m, 0.0) {
+  if (settings_.lag_s > 0.0) settings_.lag_s = std::max(settings_.lag_s, settings_.tick_s);
   target_.length_m = rest_length_m;
-  begin_.length_m = rest_length_m;
 }
 
 void Winch::command(const WinchTarget& target, double held_s, double now_s, Hand hand) {
@@ -33,13 +29,16 @@ void Winch::command(const WinchTarget& target, double held_s, double now_s, Hand
 }
 
 void Winch::tick(double now_s) {
-  if (exact_) return;
-  begin_ = at(now_s);
-  tick_since_s_ = now_s;
-  // r(t + h) = L*'(t + h) + (L*(t) − L(t)) / T
-  double rate = asked(now_s + tick_s_).rate_m_s + (asked(now_s).length_m - begin_.length_m) / time_constant_s_;
-  if (rate_limit_m_s_) rate = std::clamp(rate, -*rate_limit_m_s_, *rate_limit_m_s_);
-  acceleration_m_s2_ = (rate - begin_.rate_m_s) / tick_s_;
+  if (exact()) return;
+  const double h = settings_.tick_s;
+  const DigitalLoop<double>::Motion begin = drum_.at(now_s);
+  const WinchMotion at_end = asked(now_s + h);
+  double rate = settings_.lag_s > 0.0 ? DigitalLoop<double>::lagging(begin, at_end.length_m, settings_.lag_s, h)
+                                      : at_end.rate_m_s + (asked(now_s).length_m - begin.value) / (3.0 * h);
+  if (const auto& most = settings_.acceleration_limit_m_s2)
+    rate = std::clamp(rate, begin.rate - *most * h, begin.rate + *most * h);
+  if (const auto& most = settings_.rate_limit_m_s) rate = std::clamp(rate, -*most, *most);
+  drum_.go(now_s, h, rate);
 }
 
 WinchMotion Winch::led(double t_s) const {
@@ -58,10 +57,9 @@ WinchMotion Winch::asked(double t_s) const {
 }
 
 WinchMotion Winch::at(double t_s) const {
-  if (exact_) return asked(t_s);
-  const double elapsed_s = t_s - tick_since_s_;
-  return {begin_.length_m + elapsed_s * (begin_.rate_m_s + 0.5 * acceleration_m_s2_ * elapsed_s),
-          begin_.rate_m_s + acceleration_m_s2_ * elapsed_s};
+  if (exact()) return asked(t_s);
+  const DigitalLoop<double>::Motion motion = drum_.at(t_s);
+  return {motion.value, motion.rate};
 }
 
 }  // namespace gyre::simulator

@@ -4,26 +4,31 @@
 //   L*(t)   paid-out length asked for, extrapolated (extrapolation.hpp)       m
 //   L, r    paid-out length and its rate                                      m, m/s
 //   h       tick                                                              s
+//   T       lag                                                               s
 //
-//   r(t + h) = clamp(L*'(t + h) + (L*(t) − L(t)) / T, ± rate limit),  r linear within the tick
+//   with a lag       L' = (L* − L) / T (digital_loop.hpp), as winches are in the field: a length that moves is paid out
+//                    late by T, and whoever does not want that asks for it ahead of time
+//   without one      r(t + h) = L*'(t + h) + (L*(t) − L(t)) / 3h
+//   either           within r(t) ± acceleration limit · h, and then within ± rate limit
 //
-// The rate is linear within the tick because it must not jump: the cables' damping would turn a jump into a kick. The
-// feed-forward at the tick's end makes a constantly accelerated target free of steady error. The loop's poles are real
-// for T >= 2.92 h, so a shorter time constant is taken as three ticks. A winch without time constant and rate limit is
-// exact: it has paid out what is asked for, at all times. After a silence that made it slow down, either catches up
+// Without a lag the feed-forward at the tick's end leaves a constantly accelerated target no steady error; its poles
+// are real for 2.92 h and more. A lag shorter than a tick is taken as one. A winch without lag and limits is exact: it
+// has paid out what is asked for, at all times. After a silence that made it slow down, either catches up
 // (catch_up.hpp). One that holds brakes what it is asked for (on_silence.hpp).
 
 #include <limits>
 #include <optional>
 
 #include "simulator/core/catch_up.hpp"
+#include "simulator/core/digital_loop.hpp"
 #include "simulator/core/on_silence.hpp"
 
 namespace gyre::simulator {
 
 struct WinchSettings {
-  std::optional<double> time_constant_s;
+  double lag_s = 0.0;  ///< 0: none
   std::optional<double> rate_limit_m_s;
+  std::optional<double> acceleration_limit_m_s2;
   double tick_s = 0.002;
 };
 
@@ -56,19 +61,18 @@ class Winch {
   [[nodiscard]] WinchMotion led(double t_s) const;
   [[nodiscard]] WinchMotion asked(double t_s) const;
 
-  bool exact_;
-  double time_constant_s_;
-  std::optional<double> rate_limit_m_s_;
-  double tick_s_;
+  [[nodiscard]] bool exact() const {
+    return settings_.lag_s == 0.0 && !settings_.rate_limit_m_s && !settings_.acceleration_limit_m_s2;
+  }
+
+  WinchSettings settings_;
   OnSilence on_silence_;
   WinchTarget target_;
   double target_since_s_ = 0.0;
   double brakes_at_s_ = std::numeric_limits<double>::infinity();
   bool led_ = false;
   CatchUp<double> catch_up_{0.0};
-  WinchMotion begin_;  // at tick_since_s_
-  double acceleration_m_s2_ = 0.0;
-  double tick_since_s_ = 0.0;
+  DigitalLoop<double> drum_;
 };
 
 }  // namespace gyre::simulator

@@ -173,5 +173,21 @@ TEST_F(PlanTest, AVerdictThatComesUnderANewCoordinatorIsToldToThatOne) {
   EXPECT_TRUE(accepts({term_, 5}));
 }
 
+TEST_F(PlanTest, ItsWinchAndItsThrustAreJudgedAsItsOwnerSays) {
+  const mechanics::CarrierFigures figures =
+      mechanics::orbit_figures(slice(kMotion), mechanics::VehicleWeight{1.0, 9.80665});
+  const auto verdict = [this](const Machines& machines, const mechanics::Limits& limits = {}) {
+    return judge({{kMotion, slice(kMotion)}, limits, machines}).figures;
+  };
+  EXPECT_TRUE(verdict({}));
+  const double thrust_n = figures.thrust_max_n.value();
+  EXPECT_TRUE(verdict({{}, {0.0, 1.0, 1.01 * thrust_n, std::nullopt}}));
+  EXPECT_FALSE(verdict({{}, {0.0, 1.0, 0.99 * thrust_n, std::nullopt}}));
+  EXPECT_FALSE(verdict({{}, {0.0, 1.0, std::nullopt, 0.99 * figures.bank_max_rad.value()}}));
+  mechanics::Limits shortest;
+  shortest.length_min_m = 0.5 * (figures.paid_out_m.min + figures.length_m.min);
+  EXPECT_FALSE(verdict({}, shortest)) << "of what is paid out, too";
+}
+
 }  // namespace
 }  // namespace gyre::agent

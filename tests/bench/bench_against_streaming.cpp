@@ -10,8 +10,8 @@
 //   hold         setpoints cross the radio; a carrier holds the last position
 //   extrapolate  setpoints cross the radio; a carrier goes on from the last one with its velocity and acceleration
 //
-// Carriers and winches follow what they are told with a lag of 50 ms. The residual force is what accelerates the load:
-// its mass times the change of velocity over 10 ms.
+// Carriers and winches follow what they are told with a lag of 50 ms, which all make up for. The residual force is what
+// accelerates the load: its mass times the change of velocity over 10 ms.
 
 #include <algorithm>
 #include <cmath>
@@ -102,10 +102,7 @@ class World {
  public:
   explicit World(const gyre::mission::Mission& mission)
       : mass_kg_(mission.plan.load.mass_kg), home_w_m_(mission.plan.load.position_w_m) {
-    gyre::simulator::SimulationSettings settings;
-    settings.carrier_lag_s = kLag_s;
-    settings.winch_time_constant_s = kLag_s;
-    auto made = Simulator::create(mission.plan, settings, LocalTime{});
+    auto made = Simulator::create(mission.plan, {}, LocalTime{});
     GYRE_ENSURE(made.ok(), "the mission can be simulated");
     simulator_.emplace(std::move(made).value());
   }
@@ -192,7 +189,11 @@ class GyreFlight {
   };
 
   static gyre::coordinator::Job job(const gyre::mission::Mission& mission) {
-    return {mission.name, mission.plan, std::nullopt, mission.silence};
+    gyre::coordinator::Job job;
+    job.name = mission.name;
+    job.plan = mission.plan;
+    job.silence = mission.silence;
+    return job;
   }
   static gyre::coordinator::CoordinatorOptions options() {
     gyre::coordinator::CoordinatorOptions options;
@@ -247,7 +248,8 @@ enum class Gap { kHold, kExtrapolate };
 
 protocol::Setpoint setpoint_of(const mechanics::CarrierSlice& slice, const protocol::PlanMoment& moment) {
   const mechanics::Reference r = mechanics::evaluate(slice, gyre::seconds(moment.at.time_since_epoch()));
-  const auto position = mechanics::paced(r.position_w_m, moment.pace, moment.rate_1_s);
+  const auto position =
+      mechanics::led(mechanics::paced(r.position_w_m, moment.pace, moment.rate_1_s), slice.vehicle_lag_s);
   protocol::Setpoint s;
   s.position_w_m = position.value;
   s.velocity_w_m_s = position.first;
@@ -255,9 +257,9 @@ protocol::Setpoint setpoint_of(const mechanics::CarrierSlice& slice, const proto
   s.direction_w = r.direction_w.value;
   s.tension_n = r.tension_n.value;
   s.cable_length_m = r.length_m.value;
-  auto winch = r.length_m;
-  if (slice.cable_stiffness_n_m > 0.0) winch = winch - (1.0 / slice.cable_stiffness_n_m) * r.tension_n;
-  winch = mechanics::paced(winch, moment.pace, moment.rate_1_s);
+  const auto winch =
+      mechanics::led(mechanics::paced(mechanics::paid_out(r, slice.cable_stiffness_n_m), moment.pace, moment.rate_1_s),
+                     slice.winch_lag_s);
   s.winch_length_m = winch.value;
   s.winch_rate_m_s = winch.first;
   s.winch_acceleration_m_s2 = winch.second;
@@ -330,18 +332,20 @@ int main() {
   std::printf("    %-26s %10s %10s %12s   %8s %8s\n", "", "rms, N", "max, N", "moved, mm", "x force", "x moved");
   for (const char* name : {"/deploy/missions/paper.textproto", "/deploy/missions/paper-headings.textproto",
                            "/tests/processes/missions/faults.textproto"}) {
-    const auto mission = gyre::mission::read_mission_file(source + name);
-    if (!mission) {
-      std::fprintf(stderr, "%s\n", mission.error().text.c_str());
+    const auto read = gyre::mission::read_mission_file(source + name);
+    if (!read) {
+      std::fprintf(stderr, "%s\n", read.error().text.c_str());
       return 1;
     }
-    std::printf("  %s, %.2f rad/s, load of %.2f N\n", mission.value().name.c_str(),
-                mission.value().plan.cycle.rate_rad_s,
-                mission.value().plan.load.mass_kg * mission.value().plan.gravity_m_s2);
-    const Felt gyre = GyreFlight(mission.value()).fly();
+    gyre::mission::Mission mission = read.value();
+    mission.plan.winch.time_constant_s = kLag_s;
+    for (mechanics::Carrier& carrier : mission.plan.carriers) carrier.vehicle.time_constant_s = kLag_s;
+    std::printf("  %s, %.2f rad/s, load of %.2f N\n", mission.name.c_str(), mission.plan.cycle.rate_rad_s,
+                mission.plan.load.mass_kg * mission.plan.gravity_m_s2);
+    const Felt gyre = GyreFlight(mission).fly();
     row("Gyre", gyre, gyre);
-    row("streamed, hold", stream(mission.value(), Gap::kHold), gyre);
-    row("streamed, extrapolate", stream(mission.value(), Gap::kExtrapolate), gyre);
+    row("streamed, hold", stream(mission, Gap::kHold), gyre);
+    row("streamed, extrapolate", stream(mission, Gap::kExtrapolate), gyre);
   }
   return 0;
 }

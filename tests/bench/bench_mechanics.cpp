@@ -81,9 +81,21 @@ void certify_with_separation(benchmark::State& state) {
 BENCHMARK(certify_with_separation)->RangeMultiplier(2)->Range(4, 64)->Unit(benchmark::kMicrosecond);
 
 void certify_with_stiffness(benchmark::State& state) {
-  certify_plan(state, restless_polygon(static_cast<std::size_t>(state.range(0))), {false, true, true});
+  certify_plan(state, restless_polygon(static_cast<std::size_t>(state.range(0))), {false, true, true, false});
 }
 BENCHMARK(certify_with_stiffness)->RangeMultiplier(4)->Range(4, 64)->Unit(benchmark::kMicrosecond);
+
+void certify_with_swings(benchmark::State& state) {
+  certify_plan(state, restless_polygon(static_cast<std::size_t>(state.range(0))), {false, true, true, true});
+}
+BENCHMARK(certify_with_swings)->RangeMultiplier(4)->Range(4, 64)->Unit(benchmark::kMicrosecond);
+
+/// Everything, and everything but swings: slow, on cables that settle at once, so that swings are the longest work.
+void certify_paper_whole(benchmark::State& state, bool swings) {
+  certify_plan(state, test::paper_plan(), {true, true, true, swings});
+}
+BENCHMARK_CAPTURE(certify_paper_whole, without_swings, false)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(certify_paper_whole, with_swings, true)->Unit(benchmark::kMicrosecond);
 
 void rehearse_change_of_one_carrier(benchmark::State& state) {
   const std::vector<CarrierSlice> below = slices(test::still_plan(test::paper_plan(), 0.0));

@@ -44,13 +44,13 @@ BENCHMARK(paper_period_floor_standing_carriers)->Unit(benchmark::kMillisecond);
 
 /// The machine that runs online: 2 ms ticks, 100 Hz setpoints for each of the four carriers.
 void online_second(benchmark::State& state) {
-  const mechanics::Plan plan = rigs::paper();
+  mechanics::Plan plan = rigs::paper();
+  if (state.range(0) != 0) plan.winch.time_constant_s = 0.05;
   const std::vector<mechanics::CarrierSlice> slices = mechanics::slices(plan);
   const protocol::Pace pace = protocol::Pace{}.with_ramp(SwarmTime{}, std::chrono::seconds(20), 1.0);
   SimulationSettings settings;
   if (state.range(0) != 0) {
     settings.carrier_lag_s = 0.1;
-    settings.winch_time_constant_s = 0.05;
     settings.wind.gust_deviation_n = 0.05;
   }
   LocalTime now{};

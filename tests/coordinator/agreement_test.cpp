@@ -29,8 +29,9 @@ class Rehearsed : public testing::Test {
     for (std::size_t i = 0; i < motion_.size(); ++i) stacks_.push_back({{&rest_[i], 0, 0, 0}, {&motion_[i], 0, 0, 5}});
   }
   Rehearsal rehearsal(const mechanics::Limits& limits) {
-    plan_.limits = limits;
-    return {stacks_, plan_};
+    mechanics::Plan plan = plan_;
+    plan.limits = limits;
+    return {stacks_, plan};
   }
   static int steps(Rehearsal& rehearsal) {
     int steps = 1;
@@ -57,6 +58,20 @@ TEST_F(Rehearsed, StopsAtTheFirstCarrierThatBreaksALimit) {
   EXPECT_EQ(steps(bad), 1);
   ASSERT_FALSE(bad.reasons().empty());
   EXPECT_EQ(bad.reasons().front().rule, mechanics::Rule::kSpeed);
+}
+
+TEST_F(Rehearsed, FindsAWinchOrAVehicleThatCannotFlyIt) {
+  mechanics::Plan slow = plan_;
+  slow.winch.rate_max_m_s = 1e-6;
+  mechanics::Plan weak = plan_;
+  for (mechanics::Carrier& c : weak.carriers) c.vehicle = {0.0, 1.0, 9.81, std::nullopt};  // it lifts itself alone
+  for (const auto& [plan, rule] :
+       {std::pair(slow, mechanics::Rule::kWinch), std::pair(weak, mechanics::Rule::kThrust)}) {
+    Rehearsal bad(stacks_, plan);
+    EXPECT_EQ(steps(bad), 1);
+    ASSERT_EQ(bad.reasons().size(), 1U);
+    EXPECT_EQ(bad.reasons().front().rule, rule);
+  }
 }
 
 TEST_F(Rehearsed, FindsCarriersThatComeTooClose) {

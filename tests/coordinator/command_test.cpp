@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/base/text.hpp"
 #include "common/mechanics/orbit_figures.hpp"
 #include "tests/coordinator/flying.hpp"
 
@@ -144,6 +145,28 @@ TEST(Command, ToAPaceThatThereIsNotIsRefused) {
     EXPECT_TRUE(says(swarm.pace(none, {}), "refused: a pace is from 0, at rest, to 1, full motion"));
   }
   EXPECT_EQ(swarm.coordinator().course().wish.pace, 1.0);
+}
+
+TEST(Command, ToAPaceAtWhichASwingGrowsIsRefusedAndTheWayThroughItIsNot) {
+  Flying swarm(test::swinging(job()));  // engaging passed every pace
+  for (const double grows : {0.6, 0.7, 0.8, 0.85}) {
+    EXPECT_TRUE(says(swarm.pace(grows, {}), text("refused: at %.3g of full pace a swing of the load grows", grows)));
+  }
+  EXPECT_EQ(swarm.coordinator().course().wish.pace, 1.0);
+  EXPECT_TRUE(says(swarm.pace(0.9), "done"));
+  EXPECT_TRUE(says(swarm.pace(0.0), "done")) << "rest is on the other side of them";
+  EXPECT_TRUE(swarm.rests());
+  EXPECT_TRUE(says(swarm.pace(1.0), "done"));
+}
+
+TEST(Command, ToAPaceIsNotJudgedBySwingsOfAPlanThatIsNotFlown) {
+  Flying swarm;
+  swarm.stop_coordinator();
+  Job another = test::swinging(test::faster());
+  swarm.start_coordinator(another, {});
+  swarm.fly(seconds(3));
+  ASSERT_EQ(swarm.pace(), 1.0) << "what flew goes on";
+  EXPECT_TRUE(says(swarm.pace(0.7), "done")) << "its certificate is not known here";
 }
 
 // -------------------------------------------------------------------------------------------------------------- freeze

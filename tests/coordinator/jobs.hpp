@@ -31,6 +31,12 @@ inline Job faster() {
   return faster;
 }
 
+/// A motion in which a swing grows at 0.6 to 0.8 of its pace.
+inline Job swinging(Job job) {
+  job.swings = mechanics::Swings{-0.01, -0.005, {{0.0, 0.0}, {0.6, 0.05}, {0.8, 0.02}, {0.9, -0.01}, {1.0, -0.01}}};
+  return job;
+}
+
 inline CoordinatorOptions engaging() {
   CoordinatorOptions options;
   options.engage_when_ready = true;

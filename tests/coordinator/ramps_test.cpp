@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/coordinator/jobs.hpp"
+
 namespace gyre::coordinator {
 namespace {
 
@@ -56,6 +58,29 @@ TEST(Ramps, ThatNobodyCanFlyAreRefusedAndAStopIsTriedAllTheSame) {
   EXPECT_TRUE(ramp_duration(motion, {SwarmTime{}, 0.0, seconds(1), false}, impossible, kLongest));
 }
 
+TEST(Ramps, KeepWhatAWinchCanDo) {
+  RampLimits winch;
+  mechanics::CarrierFigures carrier;
+  carrier.paid_out_rate_m_s = {-1.0, 2.0};
+  carrier.winch_acceleration_max_m_s2 = 3.0;
+  winch.figures = {carrier};
+  winch.winch.acceleration_max_m_s2 = 3.2;
+  const protocol::Pace rest;
+  const auto narrow = ramp_duration(rest, {SwarmTime{}, 1.0, milliseconds(500), false}, winch, kLongest);
+  const auto carriers = ramp_duration(rest, {SwarmTime{}, 1.0, milliseconds(500), false}, limits(3.2), kLongest);
+  ASSERT_TRUE(narrow && carriers);
+  EXPECT_EQ(narrow.value(), carriers.value()) << "as a carrier of the same speed and acceleration";
+  EXPECT_NE(winch.broken_by(rest.with_ramp(SwarmTime{}, milliseconds(500), 1.0).ramps.back())->find("winch"),
+            std::string::npos);
+  // A ramp that overtakes another runs ahead of full pace, where a winch that is just fast enough is not.
+  winch.winch = {0.0, 2.0, std::nullopt};
+  const protocol::Ramp hurries{SwarmTime{}, seconds(5), {PlanTime{}, 1.0, 0.5, 0.0}, 1.0};
+  ASSERT_GT(protocol::peaks(hurries, 0.0, 0.0).pace, 1.01);
+  EXPECT_TRUE(winch.broken_by(hurries));
+  winch.winch.rate_max_m_s = 4.0;
+  EXPECT_FALSE(winch.broken_by(hurries));
+}
+
 TEST(Ramps, AreJudgedByThoseWhoAskForMost) {
   RampLimits all = limits(10.0);
   mechanics::CarrierFigures less = all.figures.front();
@@ -67,6 +92,11 @@ TEST(Ramps, AreJudgedByThoseWhoAskForMost) {
   other.acceleration_max_m_s2 = 3.1;
   all.include(other);
   EXPECT_EQ(all.figures.size(), 2U) << "one is faster, the other harder accelerated";
+  RampLimits winches = limits(10.0);
+  mechanics::CarrierFigures pays_out = less;
+  pays_out.winch_acceleration_max_m_s2 = 0.1;
+  winches.include(pays_out);
+  EXPECT_EQ(winches.figures.size(), 2U) << "one is faster, the other's winch harder accelerated";
   other.id = 9;
   other.speed_m_s.max = 2.5;
   all.include(other);
@@ -88,6 +118,16 @@ TEST(Ramps, LeaveNobodyTooSlowForGood) {
   EXPECT_FALSE(too_slow(0.9, least, figures));
   EXPECT_FALSE(too_slow(0.0, least, figures)) << "rest is no flight";
   EXPECT_FALSE(too_slow(0.7, {}, figures));
+}
+
+TEST(Ramps, EndAtNoPaceAtWhichASwingGrows) {
+  const std::optional<mechanics::Swings> swings = test::swinging({}).swings;
+  EXPECT_TRUE(swing_grows(0.7, swings));
+  EXPECT_TRUE(swing_grows(0.3, swings)) << "nobody looked between rest and 0.6";
+  EXPECT_FALSE(swing_grows(0.95, swings));
+  EXPECT_FALSE(swing_grows(0.0, swings)) << "rest is no motion";
+  EXPECT_FALSE(swing_grows(1.0, swings)) << "its certificate has judged it";
+  EXPECT_FALSE(swing_grows(0.7, std::nullopt));
 }
 
 }  // namespace

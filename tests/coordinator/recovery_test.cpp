@@ -171,6 +171,8 @@ TEST(Recovery, RefusesInWordsWhoCarriesAnotherLoad) {
               s.cable_stiffness_n_m *= 1.00001;
             }).rfind("carrier 2 flies with cables of another stiffness (", 0),
             0U);
+  EXPECT_EQ(with([](auto& s) { s.winch_lag_s += 0.01; }).rfind("carrier 2 flies with another lag", 0), 0U);
+  EXPECT_EQ(with([](auto& s) { s.vehicle_lag_s += 0.01; }).rfind("carrier 2 flies with another lag", 0), 0U);
   // Rounding in the last bits is no other load.
   EXPECT_EQ(with([](auto& s) {
               s.attachment_w_m *= 1.0 + 1e-14;
@@ -206,6 +208,8 @@ TEST(LoadObstacle, IsEveryDifferenceOfTheLoadAndNoneOfTheMotion) {
                   "pose"));
   EXPECT_TRUE(has(obstacle([](auto& p) { p.cable.stiffness_n_m *= 1.0 + 1e-5; }), "stiffness"));
   EXPECT_TRUE(has(obstacle([](auto& p) { p.cable.compensate_stretch = !p.cable.compensate_stretch; }), "stretch"));
+  EXPECT_TRUE(has(obstacle([](auto& p) { p.winch.time_constant_s = 0.01; }), "its winches lag by 0.01 s"));
+  EXPECT_TRUE(has(obstacle([](auto& p) { p.carriers[1].vehicle.time_constant_s = 0.01; }), "carrier 2 lags by 0.01 s"));
   EXPECT_TRUE(has(obstacle([](auto& p) { p.carriers.pop_back(); }), "it has 3 carriers, 4 are flying"));
   EXPECT_TRUE(has(obstacle([](auto& p) { p.carriers[2].id = 9; }), "it has no carrier 3"));
   EXPECT_TRUE(

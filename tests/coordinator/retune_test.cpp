@@ -60,6 +60,16 @@ TEST(Retune, AtRestIsFollowedByMotionWhereSomebodyEngagesMeanwhile) {
   EXPECT_EQ(swarm.pace(), 1.0);
 }
 
+TEST(Retune, ToAMotionInWhichASwingGrowsAtThisPaceIsRefused) {
+  Flying swarm;
+  EXPECT_TRUE(says(swarm.pace(0.7), "done"));
+  EXPECT_TRUE(says(swarm.retune(test::swinging(faster())), "cannot retune: at 0.7 of full pace a swing of the load"));
+  EXPECT_TRUE(says(swarm.command(CommandKind::kEngage), "done"));
+  EXPECT_TRUE(says(swarm.retune(test::swinging(faster())), "done"));
+  swarm.fly_until([&] { return swarm.course().transitions.empty(); });
+  EXPECT_TRUE(says(swarm.pace(0.7, {}), "refused: at 0.7 of full pace")) << "it is what is flown now";
+}
+
 TEST(Retune, ThatIsGivenUpLeavesTheMission) {
   CoordinatorOptions options;
   options.status_period = options.beacon_period;

@@ -34,7 +34,7 @@ template <class V> void each_field(mechanics::EdgePush& m, V& v) { auto& [a, b, 
 template <class V> void each_field(mechanics::Harmonic& m, V& v) { auto& [a, b] = m; visit_all(v, a, b); }
 template <class V> void each_field(mechanics::Oscillation& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
 template <class V> void each_field(mechanics::LengthLaw& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
-template <class V> void each_field(mechanics::CarrierSlice& m, V& v) { auto& [a, b, c, d, e, f, g, h] = m; visit_all(v, a, b, c, d, e, f, g, h); }
+template <class V> void each_field(mechanics::CarrierSlice& m, V& v) { auto& [a, b, c, d, e, f, g, h, i, j] = m; visit_all(v, a, b, c, d, e, f, g, h, i, j); }
 template <class V> void each_field(protocol::NumberedSlice& m, V& v) { auto& [a, b] = m; visit_all(v, a, b); }
 template <class V> void each_field(protocol::PlanOffer& m, V& v) { auto& [a, b, c, d, e] = m; visit_all(v, a, b, c, d, e); }
 template <class V> void each_field(protocol::HeldPlans& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }

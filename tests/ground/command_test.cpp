@@ -44,7 +44,7 @@ TEST(Check, JsonKeepsItsContract) {
   EXPECT_EQ(json.at("verdict"), "admissible");
   EXPECT_TRUE(json.at("reasons").empty());
   for (const char* key : {"period_s", "wrench_error_max_n", "carrier_separation_min_m", "cable_distance_min_m",
-                          "clearance_min_m", "stiffness_min_1_s2"}) {
+                          "clearance_min_m", "stiffness_min_1_s2", "swing_growth_1_s", "swing_growth_worst_1_s"}) {
     EXPECT_TRUE(json.at(key).is_number()) << key;
   }
   ASSERT_EQ(json.at("carriers").size(), 3u);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include "common/base/angle.hpp"
 #include "common/mechanics/reference.hpp"
 #include "common/mission/mission.hpp"
 #include "ground/check/certificate_json.hpp"
@@ -83,7 +84,8 @@ TEST(Table, EveryRuleIsNamedWithItsText) {
 
 TEST(Table, WhatWasNotComputedIsADash) {
   mechanics::Certificate certificate = one_bad_carrier();
-  for (const char* line : {"  separation ", "  cables apart ", "  clearance ", "  load stiffness ", "  clock skew "}) {
+  for (const char* line : {"  separation ", "  cables apart ", "  clearance ", "  load stiffness ", "  swings ",
+                           "  clock skew ", "  winches ", "  vehicles ", "  lag "}) {
     const std::string dash = line_of(certificate_table("m", {}, certificate, kStop), line);
     EXPECT_EQ(dash.find_first_not_of(' ', std::string(line).size()), dash.size() - 1) << dash;
     EXPECT_EQ(dash.back(), '-') << dash;
@@ -104,6 +106,46 @@ TEST(Table, WhatWasNotComputedIsADash) {
             std::string::npos);
   EXPECT_NE(line_of(table, "  load stiffness ").find("1.5 1/s^2"), std::string::npos) << table;
   EXPECT_NE(line_of(table, "  clock skew ").find("up to 500 ms"), std::string::npos) << table;
+}
+
+TEST(Table, SwingsAreToldAsTheyAreAndWithAMargin) {
+  mechanics::Certificate certificate = one_bad_carrier();
+  const auto line = [&](double growth_1_s, double worst_1_s) {
+    certificate.swings = mechanics::Swings{growth_1_s, worst_1_s, {}};
+    return line_of(certificate_table("m", {}, certificate, kStop), "  swings ");
+  };
+  EXPECT_EQ(
+      line(-0.02, -0.01),
+      "  swings             all die out, the slowest by 0.02 1/s; within 5 % of rate and inertia all die out, the "
+      "slowest by 0.01 1/s");
+  EXPECT_EQ(line(-1e-5, 0.2),
+            "  swings             none grows, and one goes on for hours; within 5 % of rate and inertia one grows by "
+            "0.2 1/s !");
+}
+
+TEST(Table, SaysWhatMachinesHaveToDoAtTheirWorst) {
+  mechanics::Certificate certificate = one_bad_carrier();
+  mechanics::CarrierFigures other;
+  other.paid_out_m = {1.0, 2.5};
+  other.paid_out_rate_m_s = {-0.5, 0.25};
+  other.winch_acceleration_max_m_s2 = 0.125;
+  other.thrust_max_n = 40.0;
+  other.bank_max_rad = radians(30.0);
+  certificate.carriers = {other};
+  certificate.lag_error_displacement_m = 0.0015;
+  const std::string table = certificate_table("m", {}, certificate, kStop);
+  EXPECT_EQ(line_of(table, "  winches "), "  winches            pay out 1 .. 2.5 m, by up to 0.5 m/s and 0.125 m/s^2");
+  EXPECT_EQ(line_of(table, "  vehicles "), "  vehicles           pull up to 40 N, at up to 30 degrees");
+  EXPECT_EQ(line_of(table, "  lag "), "  lag                lags that are 20 % off move the load by 1.5 mm");
+  const auto json = certificate_json("m", certificate, kStop);
+  EXPECT_EQ(json.at("lag_error_displacement_m"), 0.0015);
+  const auto& carrier = json.at("carriers")[0];
+  EXPECT_EQ(carrier.at("winch_paid_out_min_m"), 1.0);
+  EXPECT_EQ(carrier.at("winch_paid_out_max_m"), 2.5);
+  EXPECT_EQ(carrier.at("winch_paid_out_rate_max_m_s"), 0.5);
+  EXPECT_EQ(carrier.at("winch_acceleration_max_m_s2"), 0.125);
+  EXPECT_EQ(carrier.at("thrust_max_n"), 40.0);
+  EXPECT_NEAR(carrier.at("bank_max_deg").get<double>(), 30.0, 1e-12);
 }
 
 TEST(Table, ToldWhatSilenceDoesAndHowLongFlyingOnIsGood) {
@@ -135,15 +177,28 @@ TEST(Json, WhatIsInfiniteOrAbsentIsNull) {
   for (const char* key :
        {"carrier_separation_min_m", "carrier_separation_pair", "cable_distance_min_m", "cable_distance_pair",
         "clearance_min_m", "clearance_of", "clearance_pair", "clearance_at_s", "above_load_min_m", "stiffness_min_1_s2",
-        "skew_budget_s", "skew_residual_n_per_s", "skew_displacement_m_per_s", "holdover_s"}) {
+        "swing_growth_1_s", "swing_growth_worst_1_s", "swing_paces", "skew_budget_s", "skew_residual_n_per_s",
+        "skew_displacement_m_per_s", "skew_moment_n_m_per_s", "lag_error_displacement_m", "holdover_s"}) {
     EXPECT_TRUE(json.at(key).is_null()) << key;
   }
   const auto& carrier = json.at("carriers")[0];
   EXPECT_EQ(carrier.at("length_min_m"), 2.0);
   EXPECT_TRUE(carrier.at("length_max_m").is_null());
   EXPECT_TRUE(carrier.at("speed_max_m_s").is_null());
-  EXPECT_TRUE(carrier.at("direction_cosine_min").is_null());
+  for (const char* key : {"direction_cosine_min", "thrust_max_n", "bank_max_deg"})
+    EXPECT_TRUE(carrier.at(key).is_null());
   EXPECT_EQ(carrier.at("winch_rate_max_m_s"), 0.75);  // reeling in counts as much as paying out
+}
+
+TEST(Json, HasTheGrowthAtEveryPaceThatWasLookedAt) {
+  mechanics::Certificate certificate = one_bad_carrier();
+  certificate.swings = mechanics::Swings{-0.5, 0.25, {{0.0, 0.0}, {0.75, 0.125}, {1.0, -0.5}}};
+  const nlohmann::ordered_json json = certificate_json("m", certificate, kStop);
+  EXPECT_EQ(json.at("swing_growth_1_s"), -0.5);
+  EXPECT_EQ(json.at("swing_growth_worst_1_s"), 0.25);
+  ASSERT_EQ(json.at("swing_paces").size(), 3U);
+  EXPECT_EQ(json.at("swing_paces")[1].at("pace"), 0.75);
+  EXPECT_EQ(json.at("swing_paces")[1].at("growth_1_s"), 0.125);
 }
 
 TEST(Csv, NumbersReadBackToTheSameBits) {

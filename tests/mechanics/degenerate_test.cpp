@@ -17,6 +17,11 @@ Certificate expect_numbers(const Plan& plan) {
     const Certificate c = certify(plan, {true, true, non_stop});
     EXPECT_TRUE(!c.separation || std::isfinite(c.separation->min_m));
     EXPECT_EQ(c.skew.has_value(), c.stiffness_min_1_s2.has_value());
+    EXPECT_FALSE(c.swings && !c.stiffness_min_1_s2);
+    if (c.swings) {
+      EXPECT_TRUE(std::isfinite(c.swings->growth_1_s) && std::isfinite(c.swings->worst_1_s));
+      for (const PaceGrowth& p : c.swings->paces) EXPECT_TRUE(std::isfinite(p.growth_1_s)) << p.pace;
+    }
     if (c.skew) {
       for (const double x : {*c.stiffness_min_1_s2, c.skew->residual_n_per_s, c.skew->budget_s,
                              c.skew->displacement_m_per_s, c.skew->holdover_s}) {
@@ -56,7 +61,9 @@ TEST(Degenerate, any_number_of_carriers) {
   for (const std::size_t n : {3U, 4U, 16U, 64U}) EXPECT_TRUE(expect_numbers(polygon_plan(n)).admissible()) << n;
   Plan pair = reference_plan("pair-unrestricted");
   pair.cycle.edges[0].offset_n = 8.0;  // or its cables would cross
-  EXPECT_TRUE(expect_numbers(pair).admissible());
+  for (const Reason& reason : expect_numbers(pair).reasons) {
+    EXPECT_EQ(reason.rule, Rule::kSwing) << reason.text;  // the reference has no moments of inertia
+  }
   Plan single = polygon_plan(3);
   single.carriers.resize(1);
   single.carriers[0].attachment_b_m = Eigen::Vector3d::Zero();
@@ -142,9 +149,13 @@ TEST(Degenerate, feathers_and_ships_obey_the_same_laws) {
   for (const double k : {1e-6, 1e6}) {
     Plan plan = paper_plan();
     plan.load.mass_kg *= k;
+    plan.load.inertia_b_kg_m2 *= k;
+    plan.cable.stiffness_n_m *= k;  // no rope of the paper's holds a ship
+    plan.cable.damping_n_s_m *= k;
     for (Edge& edge : plan.cycle.edges) edge.amplitude_n *= k;
     const Certificate scaled = expect_numbers(plan);
     EXPECT_TRUE(scaled.admissible());
+    EXPECT_NEAR(scaled.swings->growth_1_s, paper.swings->growth_1_s, 1e-6);
     for (std::size_t i = 0; i < 4; ++i) {
       EXPECT_NEAR(scaled.carriers[i].speed_m_s.min, paper.carriers[i].speed_m_s.min, 1e-10);
       EXPECT_NEAR(scaled.carriers[i].tension_n.max / k, paper.carriers[i].tension_n.max, 1e-10);

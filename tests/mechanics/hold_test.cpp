@@ -26,6 +26,12 @@ Vector6d residual(const Plan& plan, const std::vector<CarrierSlice>& all, double
   return wrench(plan, forces) - holding_wrench(plan.load.mass_kg, plan.gravity_m_s2);
 }
 
+double greatest_arm(const Plan& plan) {
+  double greatest_m = 0.0;
+  for (const Eigen::Vector3d& arm : lever_arms(plan)) greatest_m = std::max(greatest_m, arm.norm());
+  return greatest_m;
+}
+
 // ------------------------------------------------------------------------------------------------------------ clocks
 
 RC_GTEST_PROP(Clocks, a_common_shift_moves_nobody_out_of_equilibrium, ()) {
@@ -72,7 +78,57 @@ RC_GTEST_PROP(Clocks, the_skew_budget_keeps_its_promise, ()) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < all.size(); ++i) errors.push_back(whole(0, 1) == 0 ? 0.0 : budget.budget_s);
   const double t_s = real(0.0, 1.0) * period_s(plan);
-  RC_ASSERT(residual(plan, all, t_s, errors).head<3>().norm() <= kSkewShare * weight * (1.0 + 1e-9));
+  const Vector6d left = residual(plan, all, t_s, errors);
+  RC_ASSERT(left.head<3>().norm() <= kSkewShare * weight * (1.0 + 1e-9));
+  RC_ASSERT(left.tail<3>().norm() <= budget.budget_s * budget.residual_n_m_per_s * (1.0 + 1e-9));
+  RC_ASSERT(budget.budget_s * budget.residual_n_m_per_s <= kSkewShare * weight * greatest_arm(plan) * (1.0 + 1e-9));
+}
+
+RC_GTEST_PROP(Clocks, the_skew_budget_keeps_its_promise_through_transitions_for_force_and_moment, ()) {
+  const Plan below = random_plan();
+  std::vector<Plan> plans{below};
+  std::vector<TimedLayer> times{{nullptr, real(-5.0, 5.0), 0.0, 0.0}};
+  for (std::size_t i = whole(1, kMaxLayers - 1); i > 0; --i) {
+    plans.push_back(random_motion(below));
+    if (whole(0, 1) == 0) plans.back().cycle.rate_rad_s = below.cycle.rate_rad_s;  // of one rate the bound is closer
+    times.push_back({nullptr, real(-5.0, 5.0), real(0.0, 4.0), real(0.5, 8.0)});
+  }
+  std::vector<std::vector<CarrierSlice>> slices_of;
+  for (const Plan& plan : plans) slices_of.push_back(slices(plan));
+  std::vector<std::vector<TimedLayer>> stacks(below.carriers.size(), times);
+  for (std::size_t i = 0; i < stacks.size(); ++i) {
+    for (std::size_t k = 0; k < times.size(); ++k) stacks[i][k].slice = &slices_of[k][i];
+  }
+  const double weight = below.load.mass_kg * below.gravity_m_s2;
+  const double budget_s = skew_budget_s(stacks, weight);
+  const double t_s = real(-1.0, 13.0);
+  std::vector<Eigen::Vector3d> forces;
+  for (const std::vector<TimedLayer>& stack : stacks) {
+    const double error_s = whole(0, 2) == 0 ? real(0.0, budget_s) : static_cast<double>(whole(0, 1)) * budget_s;
+    forces.push_back(evaluate_course(stack.data(), stack.size(), t_s + error_s).force_w_n.value);
+  }
+  const Vector6d left = wrench(below, forces) - holding_wrench(below.load.mass_kg, below.gravity_m_s2);
+  RC_ASSERT(left.head<3>().norm() <= kSkewShare * weight * (1.0 + 1e-9));
+  RC_ASSERT(left.tail<3>().norm() <= kSkewShare * weight * greatest_arm(below) * (1.0 + 1e-9));
+}
+
+TEST(Clocks, a_change_of_plan_asks_more_of_them_than_either_plan_the_more_the_shorter_it_is) {
+  Plan calm = paper_plan();
+  for (Edge& edge : calm.cycle.edges) edge.amplitude_n *= 0.5;
+  const std::vector<CarrierSlice> a = slices(paper_plan());
+  const std::vector<CarrierSlice> b = slices(calm);
+  const double weight = 0.3 * 9.81;
+  const auto budget_s = [&](double duration_s) {
+    std::vector<std::vector<TimedLayer>> stacks;
+    for (std::size_t i = 0; i < a.size(); ++i) stacks.push_back({{&a[i], 0, 0, 0}, {&b[i], 0, 0, duration_s}});
+    return skew_budget_s(stacks, weight);
+  };
+  EXPECT_LT(budget_s(5.0), budget_s(20.0));
+  EXPECT_LT(budget_s(20.0), skew_budget_s(a, weight));
+  EXPECT_NEAR(budget_s(1e9), skew_budget_s(a, weight), 1e-6);
+  // Half the amplitude, at the same phases: apart by half of what the paper's turns by, 15/8 / 5 s of that, and its
+  // rate.
+  EXPECT_NEAR(1.0 / budget_s(5.0), (1.0 + 0.5 * kStepSlopePeak / 5.0 / 0.08) / skew_budget_s(a, weight), 1e-6);
 }
 
 TEST(Clocks, one_clock_off_displaces_the_papers_load_as_measured_in_simulated_dynamics) {

@@ -50,6 +50,7 @@ TEST(Shipped, TheVerdictsAreTheIntendedOnes) {
   EXPECT_TRUE(broken(certified("single"), mechanics::Rule::kOneCarrierImpossibility));
   EXPECT_TRUE(broken(certified("pair-level"), mechanics::Rule::kTwoCarrierObstruction));
   EXPECT_TRUE(broken(certified("pair-unrestricted"), mechanics::Rule::kClearance)) << "its cables cross";
+  EXPECT_TRUE(broken(certified("pair-unrestricted"), mechanics::Rule::kSwing));
 }
 
 TEST(Shipped, OnlyWhatCannotStopOrIsMeantToEndureFliesOnInSilence) {

@@ -250,6 +250,8 @@ TEST(Sanity, PlanOffer) {
           [&](PlanOffer& o) { ++slice(o).id; },
           [&](PlanOffer& o) { slice(o).rate_rad_s = 0.0; },
           [&](PlanOffer& o) { slice(o).cable_stiffness_n_m = -1.0; },
+          [&](PlanOffer& o) { slice(o).winch_lag_s = -0.1; },
+          [&](PlanOffer& o) { slice(o).vehicle_lag_s = -0.1; },
           [&](PlanOffer& o) { slice(o).incoming.direction *= 2.0; },
           [&](PlanOffer& o) { slice(o).law.direction.setZero(); },
           [&](PlanOffer& o) { slice(o).law.profile.harmonic.denominator = 0; },
@@ -273,6 +275,8 @@ TEST(Sanity, PlanOffer) {
                                         [&](PlanOffer& o) -> double& { return slice(o).law.profile.swing; },
                                         [&](PlanOffer& o) -> double& { return slice(o).law.profile.phase_rad; },
                                         [&](PlanOffer& o) -> double& { return slice(o).cable_stiffness_n_m; },
+                                        [&](PlanOffer& o) -> double& { return slice(o).winch_lag_s; },
+                                        [&](PlanOffer& o) -> double& { return slice(o).vehicle_lag_s; },
                                     });
 }
 

@@ -10,7 +10,7 @@
 
 namespace gyre::simulator::rigs {
 
-/// What the paper's agents send: from rest to full pace within `engage_s`, stretch compensated.
+/// What a plan's agents send: from rest to full pace within `engage_s`, stretch compensated, ahead of declared lags.
 class Agents {
  public:
   explicit Agents(const mechanics::Plan& plan, double engage_s = 20.0)
@@ -23,8 +23,11 @@ class Agents {
   [[nodiscard]] protocol::Setpoint setpoint(std::size_t carrier, Duration since_start) const {
     const protocol::PlanMoment moment = pace_.at(SwarmTime(since_start));
     const mechanics::Reference r = mechanics::evaluate(slices_[carrier], seconds(moment.at.time_since_epoch()));
-    const auto position = mechanics::paced(r.position_w_m, moment.pace, moment.rate_1_s);
-    const auto winch = mechanics::paced(r.length_m - compliance_m_n_ * r.tension_n, moment.pace, moment.rate_1_s);
+    const auto position =
+        mechanics::led(mechanics::paced(r.position_w_m, moment.pace, moment.rate_1_s), slices_[carrier].vehicle_lag_s);
+    const auto winch =
+        mechanics::led(mechanics::paced(r.length_m - compliance_m_n_ * r.tension_n, moment.pace, moment.rate_1_s),
+                       slices_[carrier].winch_lag_s);
     protocol::Setpoint s;
     s.carrier = slices_[carrier].id;
     s.swarm_time = SwarmTime(since_start);

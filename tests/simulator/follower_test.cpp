@@ -48,15 +48,16 @@ CarrierTarget circle(double t_s) {
 }
 
 TEST(CarrierFollower, StaysPutWithoutSetpoints) {
-  for (const std::optional<double> lag_s : {std::optional<double>(), std::optional<double>(0.2)}) {
-    const CarrierFollower follower(Vector3d(1, 2, 3), lag_s);
+  for (const double lag_s : {0.0, 0.2}) {
+    CarrierFollower follower(Vector3d(1, 2, 3), lag_s);
+    for (int tick = 0; tick < 100; ++tick) follower.tick(0.002 * tick);
     EXPECT_EQ(follower.at(1000.0).position_w_m, Vector3d(1, 2, 3));
     EXPECT_EQ(follower.at(1000.0).velocity_w_m_s, Vector3d::Zero());
   }
 }
 
 TEST(CarrierFollower, ExactOneIsWhereTheSetpointSaysFromItsArrivalOn) {
-  CarrierFollower follower(Vector3d::Zero(), std::nullopt);
+  CarrierFollower follower(Vector3d::Zero());
   // Arrived 1.5 ms before the tick that takes it up.
   follower.command(circle(5.0), 7.0, 7.0015);
   const CarrierTarget truth = circle(5.0095);
@@ -64,28 +65,65 @@ TEST(CarrierFollower, ExactOneIsWhereTheSetpointSaysFromItsArrivalOn) {
   EXPECT_LT((follower.at(7.0095).velocity_w_m_s - truth.velocity_w_m_s).norm(), 1e-4);
 }
 
-TEST(CarrierFollower, LaggingOneConvergesExponentiallyAndHasNoSteadyLag) {
-  const double lag_s = 0.2;
-  CarrierFollower follower(circle(0.0).position_w_m + Vector3d(0.5, 0, 0), lag_s);
-  for (int i = 0; i < 400; ++i) {
-    const double t_s = 0.01 * i;
-    const double error = (follower.at(t_s).position_w_m - circle(t_s).position_w_m).norm();
-    EXPECT_NEAR(error, 0.5 * std::exp(-t_s / lag_s), 2e-5) << t_s;
-    follower.command(circle(t_s), t_s, t_s);
+/// Led at 100 Hz by `target`, from 0 until `until_s`; `see(t_s)` at every tick of 2 ms.
+template <class Target, class See>
+void fly(CarrierFollower& follower, double until_s, Target target, See see) {
+  for (int tick = 0; tick * 0.002 < until_s; ++tick) {
+    const double t_s = tick * 0.002;
+    if (tick % 5 == 0) follower.command(target(t_s), t_s, t_s);
+    follower.tick(t_s);
+    see(t_s);
   }
-  EXPECT_LT((follower.at(4.0).position_w_m - circle(4.0).position_w_m).norm(), 1e-5);
 }
 
-TEST(CarrierFollower, LaggingOneNeverJumps) {
+TEST(CarrierFollower, LaggingOneConvergesExponentially) {
+  const double lag_s = 0.2;
+  CarrierFollower follower(Vector3d::Zero(), lag_s);
+  const auto target = [](double /*t_s*/) {
+    return CarrierTarget{Vector3d(1, 0, 0), Vector3d::Zero(), Vector3d::Zero()};
+  };
+  fly(follower, 2.0, target,
+      [&](double t_s) { EXPECT_NEAR(1.0 - follower.at(t_s).position_w_m.x(), std::exp(-t_s / lag_s), 6e-3) << t_s; });
+}
+
+TEST(CarrierFollower, LaggingOneIsLateByItsLagAndOnTimeWhereItIsAskedAhead) {
+  const double lag_s = 0.05;
+  const auto ahead = [lag_s](double t_s) {
+    // p + T p' of the circle, and its rate; its acceleration stays that of the circle.
+    CarrierTarget c = circle(t_s);
+    c.position_w_m += lag_s * c.velocity_w_m_s;
+    c.velocity_w_m_s += lag_s * c.acceleration_w_m_s2;
+    return c;
+  };
+  const auto worst = [&](auto target) {
+    CarrierFollower follower(circle(0.0).position_w_m, lag_s);
+    double worst_m = 0.0;
+    fly(follower, 6.0, target, [&](double t_s) {
+      if (t_s < 1.0) return;
+      worst_m = std::max(worst_m, (follower.at(t_s).position_w_m - circle(t_s).position_w_m).norm());
+    });
+    return worst_m;
+  };
+  EXPECT_NEAR(worst(circle), 0.8 * lag_s, 0.01 * 0.8 * lag_s) << "speed times lag";
+  EXPECT_LT(worst(ahead), 1e-5);
+}
+
+TEST(CarrierFollower, LaggingOneJumpsNeitherInPlaceNorInSpeed) {
   CarrierFollower follower(Vector3d::Zero(), 0.1);
-  follower.command({Vector3d(1, 0, 0), Vector3d::Zero(), Vector3d::Zero()}, 0.0, 0.0);
-  const Vector3d before = follower.at(0.05).position_w_m;
-  follower.command({Vector3d(-3, 2, 0), Vector3d(1, 0, 0), Vector3d::Zero()}, 0.05, 0.05);
-  EXPECT_LT((follower.at(0.05).position_w_m - before).norm(), 1e-15);
+  CarrierMotion before = follower.at(0.0);
+  const auto target = [](double t_s) {
+    return t_s < 0.05 ? CarrierTarget{Vector3d(1, 0, 0), Vector3d::Zero(), Vector3d::Zero()}
+                      : CarrierTarget{Vector3d(-3, 2, 0), Vector3d(1, 0, 0), Vector3d::Zero()};
+  };
+  fly(follower, 0.5, target, [&](double t_s) {
+    EXPECT_LT((follower.at(t_s).position_w_m - before.position_w_m).norm(), 1e-12);
+    EXPECT_LT((follower.at(t_s).velocity_w_m_s - before.velocity_w_m_s).norm(), 1e-9);
+    before = follower.at(t_s + 0.002);
+  });
 }
 
 TEST(CarrierFollower, ComesToRestWhenSetpointsStop) {
-  CarrierFollower follower(Vector3d::Zero(), std::nullopt);
+  CarrierFollower follower(Vector3d::Zero());
   follower.command(circle(0.0), 0.0, 0.0);
   EXPECT_LT(follower.at(3.0).velocity_w_m_s.norm(), 1e-12);
   EXPECT_EQ(follower.at(3.0).position_w_m, follower.at(600.0).position_w_m);
@@ -95,7 +133,7 @@ TEST(CarrierFollower, ComesToRestWhenSetpointsStop) {
 /// Led along the circle, not led for `silence_s`, led again; `see(before, after, dt_s)` every millisecond.
 template <class See>
 CarrierFollower led_again(double silence_s, See see) {
-  CarrierFollower follower(circle(0.0).position_w_m, std::nullopt);
+  CarrierFollower follower(circle(0.0).position_w_m);
   follower.command(circle(0.0), 0.0, 0.0);
   const double end_s = silence_s + 2.0 * kCatchUp_s;
   for (double t_s = 0.0; t_s < end_s; t_s += 0.001) {
@@ -118,7 +156,7 @@ TEST(CarrierFollower, CatchesUpWithoutALeapAfterItHadSlowedDown) {
 }
 
 TEST(CarrierFollower, IsCalledBackWithoutALeapWhileItCatchesUp) {
-  CarrierFollower follower(circle(0.0).position_w_m, std::nullopt);
+  CarrierFollower follower(circle(0.0).position_w_m);
   follower.command(circle(0.0), 0.0, 0.0);
   CarrierTarget here;
   here.position_w_m = follower.at(5.0).position_w_m;
@@ -177,23 +215,62 @@ WinchRun run(Winch& winch, Target target, double until_s, double settled_s) {
   return out;
 }
 
-TEST(Winch, FollowsAMovingLengthWithoutSteadyError) {
-  const auto target = [](double t_s) {
-    return WinchTarget{1.0 + 0.3 * std::sin(t_s), 0.3 * std::cos(t_s), -0.3 * std::sin(t_s)};
-  };
-  Winch winch(1.0, {0.1, std::nullopt, 0.002});
-  EXPECT_LT(run(winch, target, 10.0, 2.0).worst_error_m, 2e-6);
+WinchTarget swinging(double t_s) {
+  return {1.0 + 0.3 * std::sin(t_s), 0.3 * std::cos(t_s), -0.3 * std::sin(t_s)};
+}
+
+TEST(Winch, WithoutALagFollowsAMovingLengthWithoutSteadyError) {
+  Winch winch(1.0, {0.0, 1.0, std::nullopt, 0.002});
+  EXPECT_LT(run(winch, swinging, 10.0, 2.0).worst_error_m, 2e-6);
+}
+
+TEST(Winch, IsLateByItsLagAndOnTimeWhereItIsAskedAhead) {
+  Winch late(1.0, {0.05, std::nullopt, std::nullopt, 0.002});
+  EXPECT_NEAR(run(late, swinging, 10.0, 2.0).worst_error_m, 0.05 * 0.3, 2e-4) << "lag times rate";
+  Winch led(1.0, {0.05, std::nullopt, std::nullopt, 0.002});
+  double worst_m = 0.0;
+  for (int tick = 0; tick < 5000; ++tick) {
+    const double t_s = 0.002 * tick;
+    const WinchTarget s = swinging(t_s);
+    if (tick % 5 == 0) {
+      led.command({s.length_m + 0.05 * s.rate_m_s, s.rate_m_s + 0.05 * s.acceleration_m_s2, s.acceleration_m_s2}, t_s,
+                  t_s);
+    }
+    led.tick(t_s);
+    if (t_s > 2.0) worst_m = std::max(worst_m, std::abs(led.at(t_s).length_m - s.length_m));
+  }
+  EXPECT_LT(worst_m, 3e-6);
+}
+
+TEST(Winch, AcceleratesNoHarderThanItsLimitAndArrivesAllTheSame) {
+  for (const double lag_s : {0.0, 0.2}) {
+    Winch winch(1.0, {lag_s, std::nullopt, 0.5, 0.002});
+    winch.command({2.0, 0.0, 0.0}, 0.0, 0.0);
+    double hardest_m_s2 = 0.0;
+    for (int tick = 0; tick < 6000; ++tick) {
+      const double t_s = 0.002 * tick;
+      const double before_m_s = winch.at(t_s).rate_m_s;
+      if (tick % 5 == 0) winch.command({2.0, 0.0, 0.0}, t_s, t_s);
+      winch.tick(t_s);
+      hardest_m_s2 = std::max(hardest_m_s2, std::abs(winch.at(t_s + 0.002).rate_m_s - before_m_s) / 0.002);
+    }
+    EXPECT_LE(hardest_m_s2, 0.5 * (1.0 + 1e-9));
+    EXPECT_GT(hardest_m_s2, 0.499) << "the limit has to have been felt";
+    if (lag_s > 0.0) {
+      EXPECT_NEAR(winch.at(12.0).length_m, 2.0, 1e-4);
+    }
+  }
 }
 
 TEST(Winch, ConvergesAtItsTimeConstant) {
-  Winch winch(1.0, {0.1, std::nullopt, 0.002});
+  Winch winch(1.0, {0.1, std::nullopt, std::nullopt, 0.002});
   const auto target = [](double /*t_s*/) { return WinchTarget{1.5, 0.0, 0.0}; };
   run(winch, target, 0.3, 1.0);
   EXPECT_NEAR(1.5 - winch.at(0.3).length_m, 0.5 * std::exp(-3.0), 0.003);
 }
 
 TEST(Winch, NeverTurnsFasterThanItsLimitAndArrivesAllTheSame) {
-  Winch winch(1.0, {0.05, 0.2, 0.002});
+  Winch winch(1.0, {0.05, 0.2, std::nullopt, 0.002});
   const auto target = [](double /*t_s*/) { return WinchTarget{2.0, 0.0, 0.0}; };
   const WinchRun figures = run(winch, target, 10.0, 6.0);
   EXPECT_LE(figures.fastest_m_s, 0.2 * (1.0 + 1e-12));
@@ -202,7 +279,7 @@ TEST(Winch, NeverTurnsFasterThanItsLimitAndArrivesAllTheSame) {
 }
 
 TEST(Winch, RateIsContinuous) {
-  Winch winch(1.0, {0.05, std::nullopt, 0.002});
+  Winch winch(1.0, {0.05, std::nullopt, std::nullopt, 0.002});
   winch.command({1.2, 0.1, 0.0}, 0.0, 0.0);
   for (int tick = 0; tick < 100; ++tick) {
     const double t_s = 0.002 * tick;
@@ -214,7 +291,7 @@ TEST(Winch, RateIsContinuous) {
 }
 
 TEST(Winch, AShortTimeConstantDoesNotOscillate) {
-  Winch winch(1.0, {1e-6, std::nullopt, 0.002});
+  Winch winch(1.0, {1e-6, std::nullopt, std::nullopt, 0.002});
   winch.command({1.1, 0.0, 0.0}, 0.0, 0.0);
   double before = 1.0;
   for (int tick = 0; tick < 200; ++tick) {
@@ -227,7 +304,7 @@ TEST(Winch, AShortTimeConstantDoesNotOscillate) {
   EXPECT_NEAR(before, 1.1, 1e-9);
 }
 
-TEST(Winch, WithoutTimeConstantAndLimitIsExact) {
+TEST(Winch, WithoutLagAndLimitsIsExact) {
   Winch winch(1.0, {});
   winch.command({2.0, 0.5, 0.0}, 1.0, 1.0);
   EXPECT_DOUBLE_EQ(winch.at(1.2).length_m, 2.1);

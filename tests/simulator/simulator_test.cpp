@@ -88,14 +88,12 @@ TEST(Simulator, BeginsWhereThePlanDoes) {
 }
 
 TEST(Simulator, FliesThePaperWithTheLoadHangingStill) {
-  const mechanics::Plan plan = rigs::paper();
-  const Agents agents(plan);
-  SimulationSettings lagging;
-  lagging.carrier_lag_s = 0.1;
-  lagging.winch_time_constant_s = 0.05;
-  lagging.winch_rate_limit_m_s = 0.3;
-  for (const SimulationSettings& settings : {SimulationSettings{}, lagging}) {
-    Simulator simulator = make(settings);
+  mechanics::Plan lagging = rigs::paper();
+  lagging.winch = {0.05, 0.3, 1.0};
+  for (mechanics::Carrier& carrier : lagging.carriers) carrier.vehicle.time_constant_s = 0.1;
+  for (const mechanics::Plan& plan : {rigs::paper(), lagging}) {
+    const Agents agents(plan);
+    Simulator simulator = make({}, plan);
     double furthest_m = 0.0;
     double fastest_m_s = 0.0;
     for (Duration t{}; t < std::chrono::seconds(60); t += milliseconds(10)) {

@@ -52,6 +52,12 @@ TEST(Judges, SeeAnAgentThatPullsTooHard) {
   EXPECT_TRUE(finds(fly(steady(), s), "equilibrium"));
 }
 
+TEST(Judges, SeeVehiclesThatLagByMoreThanTheirAgentsKnow) {
+  Sabotage s;
+  s.vehicles_lag_by_s = 0.5;
+  EXPECT_TRUE(finds(fly(steady(), s), "equilibrium"));
+}
+
 TEST(Judges, SeeAnAgentThatFliesItsOwnCourse) {
   Sabotage s;
   s.agent_says = [](std::size_t agent, TrueTime now, agent::Outputs& out) {

@@ -56,8 +56,9 @@ Swarm::Swarm(const Scenario& scenario, const Sabotage& sabotage, Trace trace)
     protocol::Setpoint rest;
     rest.position_w_m = r.position_w_m.value;
     rest.tension_n = r.tension_n.value;
-    rest.winch_length_m = protocol::winch_length(r, still[i].cable_stiffness_n_m).value;
+    rest.winch_length_m = mechanics::paid_out(r, still[i].cable_stiffness_n_m).value;
     vehicles_[i].place(rest);
+    vehicles_[i].lags(still[i].winch_lag_s, sabotage_.vehicles_lag_by_s.value_or(still[i].vehicle_lag_s));
   }
   for (const std::size_t agent : scenario_.holding) vehicles_[agent].holds();
   for (std::size_t i = 0; i < scenario_.actions.size(); ++i)

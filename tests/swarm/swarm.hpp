@@ -39,6 +39,7 @@ struct Sabotage {
   std::function<Duration(std::size_t process, TrueTime)> clock_error;
   bool vehicles_follow_anybody = false;
   bool vehicles_do_not_tell_whom = false;
+  std::optional<double> vehicles_lag_by_s;  ///< whatever their agents know
 };
 
 struct Process;

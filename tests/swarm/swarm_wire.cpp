@@ -142,8 +142,9 @@ void Swarm::perform(std::size_t process, const agent::Outputs& out) {
     if (heard == Heard::kRival) ++faults_.rivals_unheard;
     if (heard != Heard::kRival || sabotage_.vehicles_follow_anybody) {
       if (heard == Heard::kSucceeds) checkers_.begins(index);
-      checkers_.setpoint(index, now_, *out.setpoint, vehicle_state(index));
-      vehicle.command(now_, *out.setpoint);
+      const protocol::Setpoint flown = vehicle.realised(*out.setpoint);
+      checkers_.setpoint(index, now_, flown, vehicle_state(index));
+      vehicle.command(now_, flown);
       processes_[process].sends_setpoints = true;
     }
   }

@@ -4,6 +4,17 @@
 
 namespace gyre::swarm {
 
+protocol::Setpoint Vehicle::realised(const protocol::Setpoint& asked) const {
+  const auto late = [](auto& x, auto& rate, const auto& acceleration, double lag_s) {
+    x += lag_s * (lag_s * acceleration - rate);
+    rate -= lag_s * acceleration;
+  };
+  protocol::Setpoint s = asked;
+  late(s.position_w_m, s.velocity_w_m_s, s.acceleration_w_m_s2, vehicle_lag_s_);
+  late(s.winch_length_m, s.winch_rate_m_s, s.winch_acceleration_m_s2, winch_lag_s_);
+  return s;
+}
+
 void Vehicle::command(TrueTime now, const protocol::Setpoint& setpoint) {
   since_ = now;
   last_ = setpoint;
@@ -43,7 +54,7 @@ protocol::Setpoint Vehicle::doing(TrueTime now) {
   if (on_silence_ == simulator::OnSilence::kHolds) return braked(now);
   const auto path = onward_.at(last_.swarm_time + (now - since_));
   if (!path) return extrapolated(now);
-  protocol::Setpoint s = *path;
+  protocol::Setpoint s = realised(*path);
   const double now_s = seconds(now.time_since_epoch());
   // Its agent was merging back when it died, or starts again and tells of another path: nobody leaps there.
   const protocol::Setpoint here = alone_at_ ? went_on(now) : extrapolated(now);

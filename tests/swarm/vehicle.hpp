@@ -1,6 +1,7 @@
 #pragma once
 // Where a carrier is, and what it does when nobody tells it anything: as the simulator's vehicles do
-// (simulator/core/onward.hpp, on_silence.hpp, extrapolation.hpp), without their dynamics.
+// (simulator/core/onward.hpp, on_silence.hpp, extrapolation.hpp), without their dynamics. One that lags does what a
+// first-order lag does once it has settled, y = x − T x' + T² x'': of what is asked ahead, what was meant.
 
 #include "common/protocol/incumbent.hpp"
 #include "common/protocol/messages.hpp"
@@ -13,6 +14,13 @@ namespace gyre::swarm {
 
 class Vehicle {
  public:
+  /// By how much its winch and itself are late.
+  void lags(double winch_s, double vehicle_s) {
+    winch_lag_s_ = winch_s;
+    vehicle_lag_s_ = vehicle_s;
+  }
+  /// What comes of a setpoint.
+  [[nodiscard]] protocol::Setpoint realised(const protocol::Setpoint& asked) const;
   /// Rests there until it is told anything else.
   void place(const protocol::Setpoint& at_rest) { last_ = at_rest; }
   /// From now on it is of the kind that brakes when nobody tells it anything (simulator/core/on_silence.hpp).
@@ -21,6 +29,7 @@ class Vehicle {
   protocol::Incumbent::Verdict hears(TrueTime now, const protocol::Setpoint& setpoint) {
     return agent_.hear(steady(now), setpoint.incarnation);
   }
+  /// `setpoint`: as it is realised.
   void command(TrueTime now, const protocol::Setpoint& setpoint);
   void learn(TrueTime now, const protocol::AgentStatus& status) {
     if (follows(now) == 0 || follows(now) == status.incarnation) onward_.take(status);
@@ -46,6 +55,8 @@ class Vehicle {
   TrueTime since_{};
   simulator::OnSilence on_silence_ = simulator::OnSilence::kGoesOn;
   bool led_ = false;
+  double winch_lag_s_ = 0.0;
+  double vehicle_lag_s_ = 0.0;
   protocol::Setpoint last_;
   simulator::Onward onward_;
   std::optional<TrueTime> alone_at_;  // the last time it was asked what it does by itself,

@@ -65,6 +65,28 @@ std::vector<Candidate> candidates(Workshop& workshop, std::uint64_t seed) {
   return out;
 }
 
+bool grows(const mechanics::Certificate& certificate) {
+  return std::any_of(certificate.reasons.begin(), certificate.reasons.end(),
+                     [](const mechanics::Reason& reason) { return reason.rule == mechanics::Rule::kSwing; });
+}
+
+/// What the certificate refused, again: with more care, and at other rates where a swing grew.
+std::vector<Candidate> mended(Workshop& workshop, std::vector<Candidate> refused, const Care& care) {
+  const std::string doing = "what the certificate refused";
+  workshop.tighten(care.margin, care.finer);
+  std::vector<Candidate> out;
+  for (Candidate& candidate : refused) {
+    if (candidate.swings) {
+      for (Candidate& other : workshop.at_other_rates(candidate, doing)) out.push_back(std::move(other));
+    } else {
+      workshop.mend(candidate, doing);
+      out.push_back(std::move(candidate));
+    }
+  }
+  std::stable_sort(out.begin(), out.end(), before);
+  return out;
+}
+
 /// Takes the candidates to the certificate: the design is the first that it admits, and then any that is better by
 /// enough to be worth it.
 class Desk {
@@ -79,8 +101,9 @@ class Desk {
       mechanics::Plan plan = candidate.plan();
       mechanics::Certificate certificate = mechanics::certify(plan);
       if (!certificate.admissible()) {
-        if (!best_ && refused.empty()) out_.certificate = std::move(certificate);
         refused.push_back(candidate);
+        refused.back().swings = grows(certificate);
+        if (!best_ && refused.size() == 1) out_.certificate = std::move(certificate);
         continue;
       }
       out_.plan = std::move(plan);
@@ -142,11 +165,7 @@ Design design(const Requirements& requirements, std::uint64_t seed, const KeepGo
   std::vector<Candidate> found = candidates(workshop, seed);
   const std::optional<Candidate> nearest = found.empty() ? std::nullopt : std::optional<Candidate>(found.front());
   for (const Care& care : kCares) {
-    if (care.finer > 1) {
-      workshop.tighten(care.margin, care.finer);
-      for (Candidate& candidate : found) workshop.mend(candidate, "what the certificate refused");
-      std::stable_sort(found.begin(), found.end(), before);
-    }
+    if (care.finer > 1) found = mended(workshop, std::move(found), care);
     found = desk.judge(found);
     if (found.empty() || (desk.best() && workshop.stopped())) break;
   }

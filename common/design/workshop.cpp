@@ -12,6 +12,8 @@ constexpr int kFewSamples = 16;
 constexpr int kMostSamples = 64;
 constexpr int kSamplesOfAll = 768;  // many carriers say together what few say with many samples
 
+constexpr double kOtherRates[] = {0.9, 1.1, 0.8, 1.25};
+
 bool raises(Objective objective) {
   return objective == Objective::kGreatestSpeed || objective == Objective::kGreatestClearance;
 }
@@ -133,6 +135,22 @@ void Workshop::mend(Candidate& candidate, const std::string& doing) {
   search.keep_going = nullptr;
   candidate.point = meet(search, candidate.point.x, 2);
   if (!stopped_) settle(candidate, doing);
+}
+
+std::vector<Candidate> Workshop::at_other_rates(const Candidate& candidate, const std::string& doing) {
+  std::vector<Candidate> out;
+  const int rate = candidate.unknowns.rate_rad_s.index;
+  for (const double factor : kOtherRates) {
+    if (rate < 0 || !going(doing)) break;
+    Candidate other = candidate;
+    other.swings = false;
+    const double bound = factor * other.point.x[rate];
+    (factor < 1.0 ? other.unknowns.upper : other.unknowns.lower)[rate] = bound;
+    other.point.x[rate] = bound;
+    settle(other, doing);
+    out.push_back(std::move(other));
+  }
+  return out;
 }
 
 std::vector<double> Workshop::residuals(const Candidate& candidate) const {

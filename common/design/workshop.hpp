@@ -22,6 +22,7 @@ struct Candidate {
   Unknowns unknowns;
   Point point;
   bool family = true;
+  bool swings = false;  ///< the certificate refused it for a swing that grows
 
   [[nodiscard]] bool meets() const { return point.worst <= 0.0; }
   [[nodiscard]] mechanics::Plan plan() const { return plan_at(start.plan, unknowns, point.x); }
@@ -63,6 +64,8 @@ class Workshop {
   void settle(Candidate& candidate, const std::string& doing);
   /// Meets what was all but met, though it is time to end, and improves it if it is not.
   void mend(Candidate& candidate, const std::string& doing);
+  /// The same, slower and faster by enough to leave a resonance; none where the rate is given.
+  [[nodiscard]] std::vector<Candidate> at_other_rates(const Candidate& candidate, const std::string& doing);
   /// Only meets.
   void meet_demands(Candidate& candidate, const std::string& doing);
 

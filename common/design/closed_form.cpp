@@ -19,7 +19,9 @@ using mechanics::Plan;
 constexpr std::size_t kAllOrdersUpTo = 6;
 constexpr std::size_t kDrawnOrders = 40;
 constexpr double kLeastTurn = 0.05;        // sine of the angle between the edges of a carrier
-constexpr double kSteepness = 0.25;        // of a cable's swing: radius over height
+constexpr double kSteepness = 0.25;        // of a cable's swing: least radius over height
+constexpr double kFlattest = 0.6;          // cosine to the vertical, at first
+constexpr double kUpright = 0.85;          // of what a limit allows, at first
 constexpr double kTurnAcceleration = 0.6;  // of what is allowed, or of gravity
 constexpr double kHeights = 3.0;           // first height, in sizes of the motion
 constexpr double kMostHeights = 30.0;
@@ -79,14 +81,30 @@ Order angular(const Plan& plan) {
   return out;
 }
 
-/// How high above `ground` a carrier flies at first.
-double first_height(const Requirements& requirements, const Scales& scales, const Bounds& bounds, double ground) {
-  const mechanics::Limits& limits = requirements.given.limits;
-  double height = kHeights * scales.length_m;
-  if (limits.length_max_m) height = std::min(height, 0.8 * *limits.length_max_m);
-  if (limits.length_min_m) height = std::max(height, 1.1 * *limits.length_min_m);
-  return std::clamp(height, std::max(1e-3, bounds.altitude_min_m - ground),
-                    std::max(1e-2, bounds.altitude_max_m - ground));
+struct Circle {
+  double radius_m;
+  double height_m;  ///< above `ground_m`
+};
+
+/// The first circle: as wide as the speed asks for, as high as its cables may be flat with its middle pulled aside.
+Circle first_circle(const Requirements& requirements, const Scales& scales, const Bounds& bounds, double ground_m,
+                    double pull) {
+  const Plan& plan = requirements.given;
+  const mechanics::Limits& limits = plan.limits;
+  const double lowest = std::max({1e-3, bounds.altitude_min_m - ground_m, limits.length_min_m.value_or(0.0)});
+  const double highest =
+      std::max(lowest, std::min(bounds.altitude_max_m - ground_m, kUpright * limits.length_max_m.value_or(1e9)));
+  const double cosine = std::clamp(limits.vertical_cosine_min.value_or(kFlattest), kFlattest, 0.999);
+  // radius and pull together, over the height
+  const double steepest = kUpright * std::sqrt(1.0 / (cosine * cosine) - 1.0) / (1.0 + pull);
+
+  const double turning =
+      kTurnAcceleration * std::min(plan.gravity_m_s2, limits.acceleration_max_m_s2.value_or(plan.gravity_m_s2));
+  double radius = scales.speed_m_s * scales.speed_m_s / turning;
+  if (!requirements.open.rate && limits.speed_min_m_s) radius = scales.speed_m_s / plan.cycle.rate_rad_s;
+  const double height = std::clamp(std::max(kHeights * scales.length_m, radius / steepest), lowest, highest);
+  if (requirements.open.rate) radius = std::max(radius, kSteepness * height);
+  return {std::min(radius, steepest * height), height};
 }
 
 }  // namespace
@@ -184,15 +202,9 @@ Start start_of(const Requirements& requirements, const Order& order, const Scale
   const std::vector<Eigen::Vector3d> arms = lever_arms(plan);
   double top = -std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& arm : arms) top = std::max(top, plan.load.position_w_m.z() + arm.z());
-  const double height = first_height(requirements, scales, bounds, top);
-  const double turning =
-      kTurnAcceleration * std::min(plan.gravity_m_s2, plan.limits.acceleration_max_m_s2.value_or(plan.gravity_m_s2));
-  double radius = std::clamp(scales.speed_m_s * scales.speed_m_s / turning, kSteepness * height, height);
-  if (out.open.rate) {
+  const auto [radius, height] = first_circle(requirements, scales, bounds, top, pull);
+  if (out.open.rate)
     plan.cycle.rate_rad_s = std::clamp(scales.speed_m_s / radius, bounds.rate_min_rad_s, bounds.rate_max_rad_s);
-  } else if (plan.limits.speed_min_m_s && requirements.want.objective != Objective::kGreatestSpeed) {
-    radius = scales.speed_m_s / plan.cycle.rate_rad_s;
-  }
 
   for (std::size_t i = 0; i < n; ++i) {
     LengthLaw& law = plan.carriers[i].law;

@@ -21,6 +21,7 @@ constexpr int kRows = 1000, kFewestRows = 300, kRowsOfAll = 50000;
 constexpr double kFirstReach = 0.5;  // how far a round may go, as a share of each variable, or of 1 where it is less
 constexpr double kMostReach = 2.0;
 constexpr double kLeastReach = 5e-3;
+constexpr double kShorter = 0.3;  // after a round that brought nothing: rows that were left out stood in its way
 constexpr double kEnough = 1e-4;  // of the cost, relative: not worth another round
 
 enum class Goal { kMeet, kImprove, kRaise };
@@ -233,12 +234,12 @@ Point look(const Search& search, const Vector& x) {
 Point meet(const Search& search, const Vector& x, int rounds) {
   Bench bench(search);
   Point best = bench.look(x.cwiseMax(search.unknowns.lower).cwiseMin(search.unknowns.upper));
-  for (int round = 0; round < rounds && !met(search, best) && going(search); ++round) {
+  double reach = kMostReach;
+  for (int round = 0; round < rounds && reach > kLeastReach && !met(search, best) && going(search); ++round) {
     const double least = best.worst - 0.5 - 0.5 * std::abs(best.worst);
-    const Point next = bench.look(bench.round(Goal::kMeet, best.x, std::isfinite(least) ? least : -kNear, kMostReach));
-    const bool hopeless = !(next.worst < best.worst - 1e-3 * std::max(1.0, std::abs(best.worst)));
+    const Point next = bench.look(bench.round(Goal::kMeet, best.x, std::isfinite(least) ? least : -kNear, reach));
+    if (!(next.worst < best.worst - 1e-3 * std::max(1.0, std::abs(best.worst)))) reach *= kShorter;
     if (next.worst < best.worst) best = next;
-    if (hopeless) break;
   }
   return best;
 }
@@ -258,7 +259,7 @@ Point improve(const Search& search, const Point& from) {
     } else if (gain > 0.0) {
       break;
     } else {
-      reach *= 0.3;
+      reach *= kShorter;
     }
   }
   return best;

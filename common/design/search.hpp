@@ -44,7 +44,7 @@ struct Search {
 [[nodiscard]] Point look(const Search& search, const Eigen::VectorXd& x);
 
 /// Towards a point that meets all demands; as near to one as was found.
-[[nodiscard]] Point meet(const Search& search, const Eigen::VectorXd& x, int rounds = 6);
+[[nodiscard]] Point meet(const Search& search, const Eigen::VectorXd& x, int rounds = 10);
 
 /// From a point that meets all demands to the best one around; never to a worse one.
 [[nodiscard]] Point improve(const Search& search, const Point& from);

@@ -9,6 +9,7 @@ namespace gyre::design {
 namespace {
 
 constexpr int kFewSamples = 16;
+constexpr int kHurry = 4;  // rounds
 constexpr int kMostSamples = 64;
 constexpr int kSamplesOfAll = 768;  // many carriers say together what few say with many samples
 
@@ -92,7 +93,7 @@ Candidate Workshop::family(const Order& order, double pull) {
   Candidate out;
   out.start = start_of(requirements_, order, scales_, bounds_, pull);
   out.unknowns = family_of(out.start.plan, out.start.open, bounds_);
-  out.point = meet(search_of(out, "orders of the cycle", kFewSamples), out.unknowns.start, 2);
+  out.point = meet(search_of(out, "orders of the cycle", kFewSamples), out.unknowns.start, kHurry);
   return out;
 }
 

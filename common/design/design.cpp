@@ -11,10 +11,11 @@ namespace gyre::design {
 namespace {
 
 constexpr double kPulls[] = {0.0, 0.65, 1.3, 2.2, 3.5};
-constexpr std::size_t kFamilies = 4;  // that are improved
-constexpr std::size_t kWholes = 2;    // families that are searched whole
+constexpr std::size_t kFamilies = 5;  // that are improved
+constexpr std::size_t kWholes = 3;    // families that are searched whole
 constexpr std::size_t kShaken = 3;    // times that a family is shaken and searched again
 constexpr double kShake = 0.15;       // of a variable
+constexpr double kAlike = 1e-3;       // of the cost
 constexpr double kWorthIt = 5e-3;     // by how much a motion has to be better to be taken for it
 constexpr double kWorthMore = 5e-2;   // the same, to leave a family for the whole, where effort is what counts
 /// Of a search, and of those that the certificate sent back.
@@ -31,6 +32,22 @@ bool preferred(const Candidate& a, const Candidate& b, Objective objective) {
   return a.point.cost < b.point.cost - margin * std::abs(b.point.cost);
 }
 
+/// Of motions that cost the same, which are mirror images of each other as a rule, or the same found twice, one; the
+/// best first.
+std::vector<Candidate> distinct(std::vector<Candidate> candidates) {
+  std::stable_sort(candidates.begin(), candidates.end(), before);
+  const auto alike = [](const Candidate& a, const Candidate& b) {
+    const auto near = [](double x, double y) { return std::abs(x - y) <= kAlike * std::max(std::abs(x), std::abs(y)); };
+    return a.family == b.family && a.meets() == b.meets() && near(a.point.cost, b.point.cost) &&
+           (a.meets() || near(a.point.worst, b.point.worst));
+  };
+  std::vector<Candidate> out;
+  for (Candidate& candidate : candidates) {
+    if (out.empty() || !alike(out.back(), candidate)) out.push_back(std::move(candidate));
+  }
+  return out;
+}
+
 /// The best families over all orders and pulls.
 std::vector<Candidate> families(Workshop& workshop) {
   std::vector<Candidate> out;
@@ -40,11 +57,10 @@ std::vector<Candidate> families(Workshop& workshop) {
       out.push_back(workshop.family(order, pull));
     }
   }
-  std::stable_sort(out.begin(), out.end(), before);
+  out = distinct(std::move(out));
   if (out.size() > kFamilies) out.resize(kFamilies);
   for (Candidate& candidate : out) workshop.settle(candidate, "families");
-  std::stable_sort(out.begin(), out.end(), before);
-  return out;
+  return distinct(std::move(out));
 }
 
 /// Families and wholes, the ones to be judged first in front.
@@ -57,7 +73,7 @@ std::vector<Candidate> candidates(Workshop& workshop, std::uint64_t seed) {
     out.push_back(workshop.whole(simple[k]));
   for (std::size_t k = 0; k < kShaken && !simple.empty() && workshop.going("all that is open, shaken"); ++k)
     out.push_back(workshop.whole(simple[k % simple.size()], kShake, stream));
-  std::stable_sort(out.begin(), out.end(), before);
+  out = distinct(std::move(out));
   const auto simplest = std::find_if(out.begin(), out.end(), [](const Candidate& c) { return c.family; });
   if (simplest != out.end() && simplest->meets() &&
       preferred(*simplest, out.front(), workshop.requirements().want.objective))
@@ -83,8 +99,7 @@ std::vector<Candidate> mended(Workshop& workshop, std::vector<Candidate> refused
       out.push_back(std::move(candidate));
     }
   }
-  std::stable_sort(out.begin(), out.end(), before);
-  return out;
+  return distinct(std::move(out));
 }
 
 /// Takes the candidates to the certificate: the design is the first that it admits, and then any that is better by

@@ -13,7 +13,7 @@ constexpr int kHurry = 4;  // rounds
 constexpr int kMostSamples = 64;
 constexpr int kSamplesOfAll = 768;  // many carriers say together what few say with many samples
 
-constexpr double kOtherRates[] = {0.9, 1.1, 0.8, 1.25};
+constexpr double kOtherRates[] = {0.85, 1.15, 0.7, 1.4};
 
 bool raises(Objective objective) {
   return objective == Objective::kGreatestSpeed || objective == Objective::kGreatestClearance;

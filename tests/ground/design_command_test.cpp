@@ -24,7 +24,7 @@ class DesignCommand : public ::testing::Test {
   std::string folder_ = ::testing::TempDir() + "gyre-design-" + std::to_string(::getpid());
 };
 
-const std::string kWings = shipped("fixed-wing-trio.requirements");
+const std::string kWings = shipped("wing-trio.requirements");
 
 TEST_F(DesignCommand, WritesAMissionThatIsAdmissible) {
   const std::string mission = path("trio.textproto");
@@ -33,14 +33,14 @@ TEST_F(DesignCommand, WritesAMissionThatIsAdmissible) {
   EXPECT_NE(designed.output.find("What holds it back"), std::string::npos) << designed.output;
   const Answer checked = gyre("check '" + mission + "'");
   EXPECT_EQ(checked.exit_code, 0) << checked.output << checked.complaint;
-  EXPECT_EQ(checked.output.rfind("fixed-wing-trio: admissible", 0), 0u) << checked.output;
+  EXPECT_EQ(checked.output.rfind("wing-trio: admissible", 0), 0u) << checked.output;
   EXPECT_FALSE(std::filesystem::exists(mission + ".part"));
 }
 
 TEST_F(DesignCommand, WithoutAFileTheMissionGoesToStandardOutputAndTheReportBesideIt) {
   const Answer designed = gyre("design " + kWings);
   ASSERT_EQ(designed.exit_code, 0) << designed.complaint;
-  EXPECT_EQ(designed.output.rfind("# Designed from fixed-wing-trio.requirements.textproto with seed 1", 0), 0u)
+  EXPECT_EQ(designed.output.rfind("# Designed from wing-trio.requirements.textproto with seed 1", 0), 0u)
       << designed.output;
   EXPECT_NE(designed.complaint.find("What holds it back"), std::string::npos) << designed.complaint;
   EXPECT_EQ(gyre("check " + written("again.textproto", designed.output)).exit_code, 0);
@@ -48,7 +48,7 @@ TEST_F(DesignCommand, WithoutAFileTheMissionGoesToStandardOutputAndTheReportBesi
 
 TEST_F(DesignCommand, TheImpossibleIsNamedAndIsOne) {
   std::ostringstream text;
-  text << std::ifstream(std::string(GYRE_SOURCE_DIR) + "/deploy/missions/fixed-wing-trio.requirements.textproto")
+  text << std::ifstream(std::string(GYRE_SOURCE_DIR) + "/deploy/missions/wing-trio.requirements.textproto")
               .rdbuf();
   std::string wings = text.str();
   const std::string limit = "length_max_m: 80";

@@ -45,9 +45,18 @@ inline std::string replaced(std::string text, const std::string& what, const std
   return text;
 }
 
-inline const std::vector<std::string> kShippedMissions = {
-    "paper", "paper-fixed", "paper-headings", "paper-enduring", "pair-unrestricted", "pair-level",
-    "pair",  "single",      "tri-mixed",      "penta-tilted",   "fixed-wing-trio",   "hex-multirotor"};
+/// Each with its requirements beside it.
+inline const std::vector<std::string> kDesignedMissions = {
+    "duo",       "multirotor-trio", "multirotor-quartet", "multirotor-sextet", "multirotor-octet", "tilted-quartet",
+    "wing-trio", "wing-quartet",    "wing-sextet"};
+
+inline const std::vector<std::string> kShippedMissions = [] {
+  std::vector<std::string> all{
+      "paper", "paper-fixed", "paper-headings", "paper-enduring", "pair-unrestricted", "pair-level",
+      "pair",  "single",      "tri-mixed",      "penta-tilted",   "fixed-wing-trio",   "hex-multirotor"};
+  all.insert(all.end(), kDesignedMissions.begin(), kDesignedMissions.end());
+  return all;
+}();
 
 inline std::string shipped_path(const std::string& name) {
   return std::string(GYRE_SOURCE_DIR) + "/deploy/missions/" + name + ".textproto";

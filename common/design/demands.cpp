@@ -39,13 +39,13 @@ class Collector {
     const double size = scales_.length_m;
     least_or(Figure::kTension, limits_.tension_min_n, kTensionShare * weight, weight, "tension_min_n", "N");
     most(Figure::kTension, limits_.tension_max_n, weight, "tension_max_n", "N");
-    least_or(Figure::kLength, limits_.length_min_m, kLengthShare * size, size, "length_min_m", "m");
+    least_or(Figure::kPaidOut, limits_.length_min_m, kLengthShare * size, size, "length_min_m", "m");
     most(Figure::kLength, limits_.length_max_m, size, "length_max_m", "m");
     least_or(Figure::kVerticalCosine, limits_.vertical_cosine_min, kLeastCosine, 1.0, "vertical_cosine_min", "");
     least_or(Figure::kDirectionCosine, std::nullopt, kLeastCosine, 1.0, "", "");
     both_ways(Figure::kWinchRate, limits_.winch_rate_max_m_s, scales_.speed_m_s, "winch_rate_max_m_s", "m/s");
-    both_ways(Figure::kWinchRate, given_.winch.rate_max_m_s, scales_.speed_m_s, "winch.rate_max_m_s", "m/s");
-    both_ways(Figure::kWinchAcceleration, given_.winch.acceleration_max_m_s2, given_.gravity_m_s2,
+    both_ways(Figure::kPaidOutRate, given_.winch.rate_max_m_s, scales_.speed_m_s, "winch.rate_max_m_s", "m/s");
+    both_ways(Figure::kPaidOutAcceleration, given_.winch.acceleration_max_m_s2, given_.gravity_m_s2,
               "winch.acceleration_max_m_s2", "m/s^2");
     motion();
     most(Figure::kAltitude, want_.altitude_max_m, size, "altitude_max_m", "m");
@@ -69,11 +69,14 @@ class Collector {
     for (std::size_t i = 0; i < given_.carriers.size(); ++i) {
       const mechanics::Vehicle& vehicle = given_.carriers[i].vehicle;
       if (!vehicle.mass_kg) continue;
-      most(Figure::kThrust, vehicle.thrust_max_n, scales_.force_n, "thrust_max_n", "N");
-      if (vehicle.thrust_max_n) all_.back().who = static_cast<int>(i);
-      if (!vehicle.bank_max_rad) continue;
-      least_or(Figure::kUprightness, std::cos(*vehicle.bank_max_rad), 0.0, 1.0, "bank_max_deg", "deg");
-      all_.back().who = static_cast<int>(i);
+      const std::size_t before = all_.size();
+      for (const Figure thrust : {Figure::kThrust, Figure::kThrustAtRest})
+        most(thrust, vehicle.thrust_max_n, scales_.force_n, "thrust_max_n", "N");
+      if (vehicle.bank_max_rad) {
+        for (const Figure uprightness : {Figure::kUprightness, Figure::kUprightnessAtRest})
+          least_or(uprightness, std::cos(*vehicle.bank_max_rad), 0.0, 1.0, "bank_max_deg", "deg");
+      }
+      for (std::size_t d = before; d < all_.size(); ++d) all_[d].who = static_cast<int>(i);
     }
   }
 
@@ -148,8 +151,12 @@ std::vector<Demand> demands_of(const Requirements& requirements, const Scales& s
   return Collector(requirements, scales).collect();
 }
 
+bool is_angle(const Demand& demand) {
+  return demand.figure == Figure::kUprightness || demand.figure == Figure::kUprightnessAtRest;
+}
+
 double shown_limit(const Demand& demand) {
-  if (demand.figure == Figure::kUprightness) return degrees(std::acos(demand.limit));
+  if (is_angle(demand)) return degrees(std::acos(demand.limit));
   return std::abs(demand.limit);
 }
 

@@ -54,6 +54,8 @@ struct Scales {
 
 [[nodiscard]] std::vector<Demand> demands_of(const Requirements& requirements, const Scales& scales);
 
+/// Whether its limit is the cosine of an angle that the file has.
+[[nodiscard]] bool is_angle(const Demand& demand);
 /// The limit as the file has it.
 [[nodiscard]] double shown_limit(const Demand& demand);
 

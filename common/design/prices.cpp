@@ -13,7 +13,7 @@ constexpr double kNothing = 1e-4;  // a change of the figure that is none
 
 /// The demand with a limit that is easier to keep, by that share of it.
 Demand relaxed(Demand demand) {
-  if (demand.figure == Figure::kUprightness) {  // an angle
+  if (is_angle(demand)) {
     demand.limit = std::cos((1.0 + kRelax) * std::acos(demand.limit));
     return demand;
   }

@@ -98,7 +98,10 @@ Moment SampledMotion::moment_at(std::size_t carrier, const Shared& y, double pha
   out[Figure::kTension] = s.value;
   out[Figure::kLength] = l.value;
   out[Figure::kWinchRate] = l.first;
-  out[Figure::kWinchAcceleration] = l.second;
+  const Taylor<Number> paid_out = mechanics::paid_out(now, slice.cable_stiffness_n_m);
+  out[Figure::kPaidOut] = paid_out.value;
+  out[Figure::kPaidOutRate] = paid_out.first;
+  out[Figure::kPaidOutAcceleration] = paid_out.second;
   out[Figure::kSpeed] = length_of(now.position_w_m.first);
   out[Figure::kAcceleration] = length_of(now.position_w_m.second);
   out[Figure::kAltitude] = now.position_w_m.value[2];
@@ -107,14 +110,19 @@ Moment SampledMotion::moment_at(std::size_t carrier, const Shared& y, double pha
       slice.law.is_projection() ? mechanics::dot(slice.law.direction, q).value : Number(1.0);
 
   const mechanics::Vehicle& vehicle = plan_.carriers[carrier].vehicle;
-  out[Figure::kUprightness] = Number(1.0);
-  if (vehicle.mass_kg) {  // m (a + g e_z) + f
-    NumberVector pull;
-    for (int axis = 0; axis < 3; ++axis) pull[axis] = *vehicle.mass_kg * now.position_w_m.second[axis] + f.value[axis];
-    pull[2] += Number(*vehicle.mass_kg * plan_.gravity_m_s2);
-    out[Figure::kThrust] = length_of(pull);
-    out[Figure::kUprightness] = pull[2] / out[Figure::kThrust];
-  }
+  const auto pull = [&](Figure thrust, Figure uprightness, const NumberVector& of) {
+    out[thrust] = length_of(of);
+    out[uprightness] = of[2] / out[thrust];
+  };
+  out[Figure::kUprightness] = out[Figure::kUprightnessAtRest] = Number(1.0);
+  if (!vehicle.mass_kg) return out;
+  NumberVector at_rest = f.value;  // m g_0 e_z + f
+  at_rest[2] += Number(*vehicle.mass_kg * plan_.gravity_m_s2);
+  NumberVector in_motion;  // and with m a
+  for (int axis = 0; axis < 3; ++axis)
+    in_motion[axis] = at_rest[axis] + *vehicle.mass_kg * now.position_w_m.second[axis];
+  pull(Figure::kThrustAtRest, Figure::kUprightnessAtRest, at_rest);
+  pull(Figure::kThrust, Figure::kUprightness, in_motion);
   return out;
 }
 

@@ -30,7 +30,9 @@ enum class Figure {
   kTension,
   kLength,
   kWinchRate,
-  kWinchAcceleration,
+  kPaidOut,
+  kPaidOutRate,
+  kPaidOutAcceleration,
   kSpeed,
   kAcceleration,
   kAltitude,
@@ -38,6 +40,8 @@ enum class Figure {
   kDirectionCosine,  ///< 1 where the law has no direction
   kThrust,           ///< what a vehicle pulls, its own weight included; 0 without a mass
   kUprightness,      ///< cosine of that pull's angle to the vertical; 1 without a mass
+  kThrustAtRest,     ///< the same where the phase stands still
+  kUprightnessAtRest,
   kCount,
 };
 

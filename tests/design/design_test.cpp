@@ -79,6 +79,24 @@ TEST(Design, WingsDoNotBraid) {
   }
 }
 
+TEST(Design, WhatVehiclesAndWinchesCanDoIsKeptAndCosts) {
+  Requirements asked = polygon(3, 1.2, 0.5);
+  for (mechanics::Carrier& carrier : asked.given.carriers) carrier.vehicle.mass_kg = 3.0;
+  const Design easy = designed(asked);
+  ASSERT_TRUE(easy.plan);
+  const mechanics::CarrierFigures& worst = easy.certificate.carriers.front();
+  Requirements banked = asked;
+  for (mechanics::Carrier& carrier : banked.given.carriers) carrier.vehicle.bank_max_rad = 0.8 * *worst.bank_max_rad;
+  Requirements wound = asked;
+  wound.given.winch.rate_max_m_s = 0.5 * worst.paid_out_rate_max_m_s();
+  for (const Requirements& tighter : {banked, wound}) {
+    const Design design = designed(tighter);
+    ASSERT_TRUE(design.plan);
+    EXPECT_TRUE(design.certificate.admissible());
+    EXPECT_GT(design.figure, easy.figure);
+  }
+}
+
 TEST(Design, OfTwoCarriersIsTheConstructionPulledApart) {
   Requirements asked = polygon(2, 0.3, 0.5);
   asked.given.limits.length_max_m = 5.0;

@@ -21,9 +21,9 @@
 //
 // Found numerically, not proven: by steps that were halved until that made no difference, at paces of a grid, between
 // which narrow resonances lie unseen. Proven are two things at rest, where nothing feeds a swing, and C >= 0 in
-// M dx'' + C dx' + K dx = 0: none grows where K > 0, and none faster than √(−least stiffness) where not. At paces so slow
-// that twice the softest swing's frequency is 28 times the motion's, or more, the motion is taken as a sequence of such
-// rests, where K > 0: of 67 random plans none grew beyond the 23rd such order, up to the 120th that was looked at.
+// M dx'' + C dx' + K dx = 0: none grows where K > 0, and none faster than √(−least stiffness) where not. At paces so
+// slow that twice the softest swing's frequency is 28 times the motion's, or more, the motion is taken as a sequence of
+// such rests, where K > 0: of 67 random plans none grew beyond the 23rd such order, up to the 120th that was looked at.
 //
 // Source: Floquet's theorem. Reference: docs/design.md, fact 6.
 

@@ -119,7 +119,7 @@ std::string growth_text(double growth_1_s) {
   if (growth_1_s > mechanics::kNeutralGrowth_1_s) return "one grows by " + number_text(growth_1_s) + " 1/s";
   if (growth_1_s < -mechanics::kNeutralGrowth_1_s)
     return "all die out, the slowest by " + number_text(-growth_1_s) + " 1/s";
-  return "none grows, and one goes on for hours";
+  return "none grows";
 }
 
 std::string swing_line(const std::optional<mechanics::Swings>& swings) {

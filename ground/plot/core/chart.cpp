@@ -22,6 +22,17 @@ Range of_all(const Figure& figure, const Certificate& certificate) {
   return out;
 }
 
+/// As figures are printed, with a minus sign as axes have it.
+std::string signed_text(double figure) {
+  constexpr double kZero = 1e-9;
+  return (figure < -kZero ? kMinus : "") + number_text(std::abs(figure), kZero);
+}
+
+std::string span_text(const Range& range) {
+  const std::string min = signed_text(range.min), max = signed_text(range.max);
+  return min == max ? min : min + " .. " + max;
+}
+
 /// What the curves need, and a limit where that leaves them a third of the height.
 struct Shown {
   Range range;
@@ -62,13 +73,13 @@ void draw_title(Svg& svg, const Figure& figure, const Range& certified, const Bo
   svg.end();
   const bool broken = outside(figure, certified);
   svg.begin(broken ? kBad : kMuted);
-  svg.words({place.right, y}, range_text(certified, 1e-9) + (broken ? ", outside its limits" : ", certified"),
+  svg.words({place.right, y}, span_text(certified) + (broken ? ", outside its limits" : ", certified"),
             {kAxisFont, Anchor::kEnd});
   svg.end();
 }
 
 void draw_axes(Svg& svg, const Box& plot, const Scale& time, const Scale& up) {
-  const auto heights = ticks({std::min(up.shown.min, up.shown.max), up.shown.max}, 5);
+  const auto heights = ticks(up.shown, 5);
   svg.begin(kGrid);
   for (const Tick& tick : heights) svg.line({plot.left, up(tick.figure)}, {plot.right, up(tick.figure)}, {0.6});
   svg.end();
@@ -101,14 +112,44 @@ void draw_bands(Svg& svg, const Figure& figure, const Certificate& certificate, 
 }
 
 /// A limit as a line with its name; one that is far away as a word at the rim it lies beyond.
-void draw_limit(Svg& svg, const char* name, double limit, bool is_shown, bool above, const Box& plot, const Scale& up) {
-  const std::string words = std::string(name) + " " + number_text(limit);
-  const double y = is_shown ? up(limit) : above ? plot.top + kRim - 4.0 : plot.bottom - kRim + 4.0;
-  svg.begin(kBad);
-  if (is_shown) svg.line({plot.left, y}, {plot.right, y}, {1.3, 0.9, "7 4"});
-  svg.words({plot.right - 4.0, above ? y - 4.5 : y + 12.5}, is_shown ? words : words + (above ? " \u2191" : " \u2193"),
-            {kLimitFont, Anchor::kEnd, false, true});
+void draw_limit(Svg& svg, double limit, bool is_shown, bool is_max, bool broken, const Box& plot, const Scale& up) {
+  const std::string words = (is_max ? "max " : "min ") + signed_text(limit);
+  const double y = is_shown ? up(limit) : is_max ? plot.top + kRim - 4.0 : plot.bottom - kRim + 4.0;
+  svg.begin(broken ? kBad : kInk);
+  if (is_shown) svg.line({plot.left, y}, {plot.right, y}, {1.1, 0.8, "7 4"});
+  svg.words({plot.right - 4.0, is_max ? y - 4.5 : y + 12.5},
+            is_shown ? words : words + (is_max ? " \u2191" : " \u2193"), {kLimitFont, Anchor::kEnd, false, true});
   svg.end();
+}
+
+using Curve = std::vector<Point>;
+
+bool look_alike(const Curve& a, const Curve& b) {
+  constexpr double kNobodySees = 0.7;  // px
+  return std::equal(a.begin(), a.end(), b.begin(),
+                    [](const Point& p, const Point& q) { return std::abs(p.y - q.y) < kNobodySees; });
+}
+
+/// Where carriers do the same, they take turns along the line. Of many carriers lines are fine, to be seen through.
+void draw_curves(Svg& svg, const std::vector<Curve>& curves) {
+  constexpr std::size_t kFew = 12;
+  constexpr int kTurn = 9;  // px
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    Stroke stroke = curves.size() <= kFew ? Stroke{1.7, 0.95} : Stroke{0.9, 0.6};
+    int alike = 0, before = 0;
+    for (std::size_t j = 0; j < curves.size() && curves.size() <= kFew; ++j) {
+      if (!look_alike(curves[i], curves[j])) continue;
+      ++alike;
+      if (j < i) ++before;
+    }
+    if (alike > 1) {
+      stroke.dash = std::to_string(kTurn) + " " + std::to_string(kTurn * (alike - 1));
+      stroke.dash_offset = -1.0 * kTurn * before;
+    }
+    svg.begin(carrier_tone(i));
+    svg.path(curves[i], stroke);
+    svg.end();
+  }
 }
 
 }  // namespace
@@ -142,16 +183,17 @@ void draw_chart(Svg& svg, const Figure& figure, const Motion& motion, const Cert
   svg.begin(kMuted);
   svg.box({plot.left, up(certified.max), plot.right, up(certified.min)}, 0.12);
   svg.end();
-  for (std::size_t i = 0; i < motion.carriers.size(); ++i) {
-    std::vector<Point> curve;
-    for (const Moment& moment : motion.carriers[i].moments) curve.push_back({time(moment.t_s), up(figure.of(moment))});
-    svg.begin(carrier_tone(i));
-    svg.path(curve, {1.6, 0.95, carrier_dash(i)});
-    svg.end();
+  std::vector<Curve> curves(motion.carriers.size());
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    for (const Moment& moment : motion.carriers[i].moments)
+      curves[i].push_back({time(moment.t_s), up(figure.of(moment))});
   }
+  draw_curves(svg, curves);
   draw_bands(svg, figure, certificate, {plot.right + kGap, plot.top, place.right, plot.bottom}, up);
-  if (figure.limit_max) draw_limit(svg, "max", *figure.limit_max, shows.limit_max, true, plot, up);
-  if (figure.limit_min) draw_limit(svg, "min", *figure.limit_min, shows.limit_min, false, plot, up);
+  const auto& least = figure.limit_min;
+  const auto& most = figure.limit_max;
+  if (most) draw_limit(svg, *most, shows.limit_max, true, certified.max > *most, plot, up);
+  if (least) draw_limit(svg, *least, shows.limit_min, false, certified.min < *least, plot, up);
 }
 
 }  // namespace gyre::ground

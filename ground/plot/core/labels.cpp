@@ -7,6 +7,15 @@
 
 namespace gyre::ground {
 
+void Labels::occupy(Point from, Point to, double half_width) {
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const int pieces = 1 + static_cast<int>(length / (2.0 * half_width));
+  for (int k = 0; k <= pieces; ++k) {
+    const double x = from.x + (to.x - from.x) * k / pieces, y = from.y + (to.y - from.y) * k / pieces;
+    occupy({x - half_width, y - half_width, x + half_width, y + half_width});
+  }
+}
+
 bool Labels::has_room(const Box& box) const {
   if (box.left < within_.left || box.right > within_.right || box.top < within_.top || box.bottom > within_.bottom)
     return false;
@@ -21,7 +30,7 @@ std::optional<Point> Labels::place(const std::string& words, double font_size, P
   const double half_width = 0.5 * width_of(words, font_size);
   const double half_height = 0.5 * kHeight * font_size;
   const double first = std::atan2(wish.y, wish.x);
-  for (const double further : {0.0, 8.0, 18.0}) {
+  for (const double further : {0.0, 6.0, 14.0, 24.0, 36.0}) {
     for (int k = 0; k < kDirections; ++k) {
       // the wish, then to either side of it by turns
       const double angle = first + (k % 2 == 0 ? 1 : -1) * ((k + 1) / 2) * (kTwoPi / kDirections);

@@ -14,6 +14,8 @@ class Labels {
   explicit Labels(const Box& within) : within_(within) {}
 
   void occupy(const Box& box) { taken_.push_back(box); }
+  /// A line, and `half_width` px to either side.
+  void occupy(Point from, Point to, double half_width);
 
   /// The middle of the baseline of words beside `mark`, which stay `gap` px off it: towards `wish` where there is room,
   /// else as near to that as can be. Absent: there is no room at all.

@@ -62,6 +62,7 @@ Motion motion(const mechanics::Plan& plan, const mechanics::Certificate& certifi
   }
   out.places = nearest(certificate.separation, slices);
   out.cables = nearest(certificate.cable_distance, slices);
+  out.load_position_w_m = plan.load.position_w_m;
   out.load_w_m = mechanics::hull_w(plan.load);
   if (out.load_w_m.empty()) {
     for (const CarrierSlice& slice : slices) out.load_w_m.push_back(slice.attachment_w_m);

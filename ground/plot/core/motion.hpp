@@ -42,6 +42,7 @@ struct Motion {
   double period_s = 0.0;
   std::vector<CarrierPath> carriers;
   std::optional<Nearest> places, cables;
+  Eigen::Vector3d load_position_w_m = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> load_w_m;  ///< the corners of its hull; without one, its attachments
 };
 

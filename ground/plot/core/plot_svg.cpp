@@ -19,6 +19,7 @@ constexpr double kWidth = 1000.0, kMargin = 28.0, kInner = kWidth - 2.0 * kMargi
 constexpr double kNameFont = 24.0, kFont = 13.0, kSmall = 12.0;
 constexpr double kRow = 20.0, kBelowFrame = 52.0;
 constexpr double kChartHeight = 214.0, kBetweenCharts = 12.0, kGap = 32.0;
+constexpr double kIndent = kMargin + 44.0;  // where frames begin, behind what their axes say
 constexpr std::size_t kMostReasonLines = 4;
 
 std::string counted(std::size_t count, const char* noun) {
@@ -87,63 +88,53 @@ double draw_header(Svg& svg, const std::string& name, const mechanics::Plan& pla
   return y + 22.0;
 }
 
-/// Puts one thing beside the other, and begins a new row where there is no room.
+/// Puts one thing beside the other, each `pitch` wide, and begins a new row where there is no room.
 class Rows {
  public:
-  explicit Rows(double top) : at_{kMargin, top} {}
+  Rows(double top, double pitch) : at_{kIndent, top}, pitch_(pitch) {}
 
-  Point take(double width) {
-    if (at_.x > kMargin && at_.x + width > kWidth - kMargin) at_ = {kMargin, at_.y + kRow};
-    const Point out = at_;
-    at_.x += width;
-    return out;
+  Point next() {
+    constexpr double kRounding = 1e-6;
+    if (at_.x + pitch_ > kWidth - kMargin + kRounding) at_ = {kIndent, at_.y + kRow};
+    at_.x += pitch_;
+    return {at_.x - pitch_, at_.y};
   }
   [[nodiscard]] double end() const { return at_.y + kRow; }
 
  private:
   Point at_;
+  double pitch_;
 };
 
-struct Caption {
-  std::string words;
-  enum { kPlaces, kCables, kNone } mark;
-};
-
-std::vector<Caption> captions(const Certificate& certificate) {
-  std::vector<Caption> out;
-  const auto m = [](const mechanics::Approach& approach) { return number_text(approach.min_m) + " m"; };
-  if (certificate.separation)
-    out.push_back({"closest " + m(*certificate.separation) + ", " + who(*certificate.separation), Caption::kPlaces});
-  if (certificate.cable_distance) {
-    out.push_back(
-        {"closest " + m(*certificate.cable_distance) + ", " + who(*certificate.cable_distance), Caption::kCables});
+/// How closely things come, under the frame that it is drawn in; whose line it is stands before the words.
+double draw_captions(Svg& svg, const Certificate& certificate, double top) {
+  constexpr double kMark = 32.0, kMarkLength = 22.0;
+  Rows rows(top, 0.5 * (kInner + kGap));
+  const auto caption = [&](Point at, const std::string& words) {
+    svg.begin(kInk);
+    svg.words(at, words, {kSmall});
+    svg.end();
+  };
+  for (const auto* approach : {&certificate.separation, &certificate.cable_distance}) {
+    if (!*approach) continue;
+    const Point at = rows.next();
+    draw_approach(svg, {at.x + 2.5, at.y - 4.0}, {at.x + kMarkLength, at.y - 4.0},
+                  (*approach)->what == mechanics::Touch::kCables);
+    caption({at.x + kMark, at.y}, who(**approach) + " come within " + number_text((*approach)->min_m) + " m");
   }
   if (certificate.clearance) {
-    out.push_back({"room to stray " + m(*certificate.clearance) + ", " + who(*certificate.clearance), Caption::kNone});
+    caption(rows.next(), "a carrier may stray " + number_text(certificate.clearance->min_m) + " m before " +
+                             who(*certificate.clearance) + " touch");
   }
-  return out;
-}
-
-double draw_captions(Svg& svg, const Certificate& certificate, double top) {
-  constexpr double kMark = 34.0, kBetween = 22.0;
-  Rows rows(top);
-  for (const Caption& caption : captions(certificate)) {
-    const double mark = caption.mark == Caption::kNone ? 0.0 : kMark;
-    const Point at = rows.take(mark + width_of(caption.words, kSmall) + kBetween);
-    if (mark > 0.0)
-      draw_approach(svg, {at.x + 3.0, at.y - 4.0}, {at.x + 25.0, at.y - 4.0}, caption.mark == Caption::kCables);
-    svg.begin(kInk);
-    svg.words({at.x + mark, at.y}, caption.words, {kSmall});
-    svg.end();
-  }
+  if (certificate.separation) caption(rows.next(), "dotted: where they are when they come closest");
   return rows.end();
 }
 
 double draw_legend(Svg& svg, const Motion& motion, double top) {
-  constexpr double kSwatch = 22.0, kEntry = 59.0;  // sixteen in a row
-  Rows rows(top);
+  constexpr double kSwatch = 22.0, kInARow = 16.0;
+  Rows rows(top, (kWidth - kMargin - kIndent) / kInARow);
   for (std::size_t i = 0; i < motion.carriers.size(); ++i) {
-    const Point at = rows.take(kEntry);
+    const Point at = rows.next();
     svg.begin(carrier_tone(i));
     svg.line({at.x, at.y - 4.0}, {at.x + kSwatch, at.y - 4.0}, {2.4, 1.0, carrier_dash(i)});
     svg.words({at.x + kSwatch + 6.0, at.y}, std::to_string(motion.carriers[i].id), {kSmall, Anchor::kStart, true});

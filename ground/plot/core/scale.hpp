@@ -20,6 +20,8 @@ struct Scale {
   }
 };
 
+inline const std::string kMinus = "\u2212";
+
 struct Tick {
   double figure;
   std::string words;
@@ -39,7 +41,8 @@ struct Tick {
   std::vector<Tick> out;
   for (int k = 0; k <= most && (first + k) * step <= shown.max + 1e-9 * step; ++k) {
     const double figure = (first + k) * step;
-    out.push_back({figure, text("%.*f", decimals, std::abs(figure) < 0.5 * step ? 0.0 : figure)});
+    const bool below_zero = figure < -0.5 * step;
+    out.push_back({figure, (below_zero ? kMinus : "") + text("%.*f", decimals, std::abs(figure))});
   }
   return out;
 }

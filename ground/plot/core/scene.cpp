@@ -45,9 +45,12 @@ void draw_axes(Svg& svg, const Frame& frame) {
               {kAxisFont, Anchor::kEnd});
   }
   svg.words({plot.right, plot.bottom + 30.0}, std::string(frame.view.right_name) + ", m", {kAxisFont, Anchor::kEnd});
-  svg.words({plot.right, plot.top - 11.0}, std::string(frame.view.up_name) + ", m \u2191", {kAxisFont, Anchor::kEnd});
-  if (frame.view.shows_altitude && frame.up.shown.min <= 0.0 && frame.up.shown.max >= 0.0)
-    svg.line({plot.left, frame.up(0.0)}, {plot.right, frame.up(0.0)}, {1.6});
+  svg.words({plot.right, plot.top - 11.0}, std::string(frame.view.up_name) + ", m", {kAxisFont, Anchor::kEnd});
+  if (frame.shows_ground) {
+    const double ground = frame.up(0.0);
+    svg.line({plot.left, ground}, {plot.right, ground}, {1.4});
+    svg.box({plot.left, ground, plot.right, plot.bottom}, 0.1);
+  }
   svg.end();
 }
 
@@ -96,7 +99,7 @@ void draw_carrier(Svg& svg, const CarrierPath& path, std::size_t index, const Fr
   svg.begin(carrier_tone(index));
   svg.line(attachment, place, {1.6, 1.0, carrier_dash(index)});
   svg.disc(attachment, 1.9, 1.0);
-  svg.disc(place, std::max(2.4, std::min(3.6, 0.5 * radius)), 1.0);
+  svg.disc(place, std::clamp(0.5 * radius, 2.4, 3.6), 1.0);
   if (radius > 3.0) {
     svg.disc(place, radius, 0.22);
     svg.ring(place, radius, {1.3});
@@ -124,7 +127,7 @@ void draw_then(Svg& svg, const Nearest::Side& side, const Motion& motion, const 
 
 void label_carriers(Svg& svg, const Motion& motion, const Frame& frame, Labels& labels) {
   const bool few = motion.carriers.size() <= kFew;
-  if (!few && frame.view.shows_altitude) return;
+  if (!few && frame.view.up.z() > 0.0) return;
   const double font = few ? 13.0 : 9.0;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const CarrierPath& path : motion.carriers) middle += path.attachment_w_m;
@@ -142,15 +145,29 @@ void label_carriers(Svg& svg, const Motion& motion, const Frame& frame, Labels& 
   }
 }
 
+/// Beside the line from one to the other.
 void label_approach(Svg& svg, const Nearest& nearest, const Frame& frame, Labels& labels) {
   const Point a = frame(nearest.first.closest_w_m), b = frame(nearest.second.closest_w_m);
   const std::string words = number_text(nearest.approach.min_m) + " m";
-  const Point across{b.y - a.y, a.x - b.x};  // beside the line from one to the other
+  const Point across{b.y - a.y, a.x - b.x};
   const auto room = labels.place(words, kFigureFont, {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}, 6.0, across);
   if (!room) return;
   svg.begin(kInk);
   svg.words(*room, words, {kFigureFont, Anchor::kMiddle, true, true});
   svg.end();
+}
+
+/// What no words may cover: carriers, and of few of them their cables too.
+Labels taken(const Motion& motion, const Frame& frame) {
+  Labels labels(frame.plot);
+  const bool few = motion.carriers.size() <= kFew;
+  for (const CarrierPath& path : motion.carriers) {
+    const Point place = frame(path.moments.front().position_w_m);
+    const double half = std::max(3.6, path.radius_m * frame.px_per_m());
+    labels.occupy({place.x - half, place.y - half, place.x + half, place.y + half});
+    if (few) labels.occupy(frame(path.attachment_w_m), place, 2.0);
+  }
+  return labels;
 }
 
 }  // namespace
@@ -169,29 +186,26 @@ void draw_approach(Svg& svg, Point from, Point to, bool of_cables) {
 }
 
 void draw_scene(Svg& svg, const Motion& motion, const Frame& frame) {
+  std::vector<Nearest> approaches;
+  for (const auto* approach : {&motion.places, &motion.cables}) {
+    if (*approach) approaches.push_back(**approach);
+  }
   draw_axes(svg, frame);
-  const std::vector<const std::optional<Nearest>*> approaches{&motion.places, &motion.cables};
   for (std::size_t i = 0; i < motion.carriers.size(); ++i) draw_orbit(svg, motion.carriers[i], i, frame);
-  for (const auto* nearest : approaches) {
-    if (!*nearest) continue;
-    draw_then(svg, (*nearest)->first, motion, frame);
-    draw_then(svg, (*nearest)->second, motion, frame);
+  for (const Nearest& nearest : approaches) {
+    draw_then(svg, nearest.first, motion, frame);
+    draw_then(svg, nearest.second, motion, frame);
   }
   draw_load(svg, motion, frame);
   for (std::size_t i = 0; i < motion.carriers.size(); ++i) draw_carrier(svg, motion.carriers[i], i, frame);
-  Labels labels(frame.plot);
-  for (const CarrierPath& path : motion.carriers) {
-    const Point place = frame(path.moments.front().position_w_m);
-    const double half = std::max(3.6, path.radius_m * frame.px_per_m());
-    labels.occupy({place.x - half, place.y - half, place.x + half, place.y + half});
+  Labels labels = taken(motion, frame);
+  for (const Nearest& nearest : approaches) {
+    const Point a = frame(nearest.first.closest_w_m), b = frame(nearest.second.closest_w_m);
+    draw_approach(svg, a, b, nearest.approach.what == mechanics::Touch::kCables);
+    labels.occupy(a, b, 2.0);
   }
   label_carriers(svg, motion, frame, labels);
-  for (const auto* nearest : approaches) {
-    if (!*nearest) continue;
-    draw_approach(svg, frame((*nearest)->first.closest_w_m), frame((*nearest)->second.closest_w_m),
-                  (*nearest)->approach.what == mechanics::Touch::kCables);
-    label_approach(svg, **nearest, frame, labels);
-  }
+  for (const Nearest& nearest : approaches) label_approach(svg, nearest, frame, labels);
 }
 
 }  // namespace gyre::ground

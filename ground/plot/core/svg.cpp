@@ -16,7 +16,7 @@ constexpr double kHaloWidth = 3.0;
 
 std::string number(double value, int decimals) {
   std::string out = text("%.*f", decimals, value);
-  out.erase(out.find_last_not_of('0') + 1);
+  if (decimals > 0) out.erase(out.find_last_not_of('0') + 1);
   if (out.back() == '.') out.pop_back();
   return out == "-0" ? "0" : out;
 }
@@ -86,7 +86,8 @@ void Svg::element(const char* tag, const std::vector<Attribute>& attributes, con
 void Svg::outline(const char* tag, std::vector<Attribute> attributes, const Stroke& stroke) {
   attributes.insert(attributes.end(), {{"fill", "none"}, {"stroke", "currentColor"}, {"stroke-width", stroke.width}});
   if (stroke.opacity < 1.0) attributes.emplace_back("opacity", stroke.opacity);
-  if (std::strlen(stroke.dash) > 0) attributes.emplace_back("stroke-dasharray", stroke.dash);
+  if (!stroke.dash.empty()) attributes.emplace_back("stroke-dasharray", stroke.dash);
+  if (stroke.dash_offset != 0.0) attributes.emplace_back("stroke-dashoffset", stroke.dash_offset);
   element(tag, attributes);
 }
 

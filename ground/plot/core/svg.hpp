@@ -25,7 +25,8 @@ struct Box {
 struct Stroke {
   double width = 1.0;
   double opacity = 1.0;
-  const char* dash = "";  ///< lengths drawn and left out; empty: drawn all along
+  std::string dash = {};  ///< lengths drawn and left out; empty: drawn all along
+  double dash_offset = 0.0;
 };
 
 enum class Anchor { kStart, kMiddle, kEnd };

@@ -13,6 +13,7 @@ constexpr double kRim = 30.0;  // inside a frame, for labels
 
 Range extent(const Motion& motion, const Eigen::Vector3d& along) {
   Range out;
+  out.include(motion.load_position_w_m.dot(along));
   for (const Eigen::Vector3d& corner : motion.load_w_m) out.include(corner.dot(along));
   for (const CarrierPath& path : motion.carriers) {
     out.include(path.attachment_w_m.dot(along));
@@ -24,11 +25,11 @@ Range extent(const Motion& motion, const Eigen::Vector3d& along) {
   return out;
 }
 
-/// The ground is in the picture where it is near: else it would make everything else small.
-Range with_ground(Range altitude) {
+/// The ground is in the picture where it is near: else it would make everything else small. Where the load's own place
+/// is not above it, altitudes count from elsewhere.
+bool near_ground(const Range& altitude) {
   constexpr double kNear = 0.35;
-  if (altitude.min > 0.0 && altitude.min < kNear * altitude.span()) altitude.include(0.0);
-  return altitude;
+  return altitude.min > 0.0 && altitude.min < kNear * altitude.span();
 }
 
 /// A range as wide as so many px are, about the middle of another.
@@ -48,11 +49,12 @@ Frames frames(const Motion& motion, Point top_left, double width) {
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
   const View above{"From above", "x", "y", x, y};
   const Range across_x = extent(motion, x), across_y = extent(motion, y);
-  const View side = across_x.span() >= across_y.span()
-                        ? View{"From the side, along +y", "x", "altitude", x, z, true}
-                        : View{"From the side, along \u2212x", "y", "altitude", y, z, true};
+  const View side = across_x.span() >= across_y.span() ? View{"From the side, along +y", "x", "altitude", x, z}
+                                                       : View{"From the side, along \u2212x", "y", "altitude", y, z};
   const Range across = across_x.span() >= across_y.span() ? across_x : across_y;
-  const Range altitude = with_ground(extent(motion, z));
+  Range altitude = extent(motion, z);
+  const bool grounded = near_ground(altitude);
+  if (grounded) altitude.include(0.0);
 
   const double plot_width = 0.5 * (width - kGap) - kLeft;
   const double wide = std::max(across.span(), 1e-6);
@@ -60,13 +62,13 @@ Frames frames(const Motion& motion, Point top_left, double width) {
   const double px_per_m = std::min((plot_width - 2.0 * kRim) / wide, (kMostHeight - 2.0 * kRim) / high);
   const double height = std::clamp(px_per_m * high + 2.0 * kRim, kLeastHeight, kMostHeight);
 
-  const auto frame = [&](const View& view, double left, const Range& right, const Range& up) {
+  const auto frame = [&](const View& view, double left, const Range& right, const Range& up, bool shows_ground) {
     const Box plot{left + kLeft, top_left.y + kTop, left + kLeft + plot_width, top_left.y + kTop + height};
     return Frame{view, plot, centred(right, px_per_m, plot.left, plot.right),
-                 centred(up, px_per_m, plot.bottom, plot.top)};
+                 centred(up, px_per_m, plot.bottom, plot.top), shows_ground};
   };
-  return {frame(above, top_left.x, across_x, across_y),
-          frame(side, top_left.x + kLeft + plot_width + kGap, across, altitude)};
+  return {frame(above, top_left.x, across_x, across_y, false),
+          frame(side, top_left.x + kLeft + plot_width + kGap, across, altitude, grounded)};
 }
 
 std::vector<Point> hull_of(std::vector<Point> points) {

@@ -21,13 +21,13 @@ struct View {
   const char* right_name;
   const char* up_name;
   Eigen::Vector3d right, up;
-  bool shows_altitude = false;
 };
 
 struct Frame {
   View view;
   Box plot;
-  Scale right, up;  ///< metres to px
+  Scale right, up;            ///< metres to px
+  bool shows_ground = false;  ///< altitude 0
 
   [[nodiscard]] Point operator()(const Eigen::Vector3d& place_w_m) const {
     return {right(place_w_m.dot(view.right)), up(place_w_m.dot(view.up))};

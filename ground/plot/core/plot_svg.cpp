@@ -43,7 +43,7 @@ std::vector<std::string> reason_lines(const Certificate& certificate) {
   }
   for (std::string& line : lines) line = shortened(line, kFont, kInner);
   if (certificate.reasons.size() > 1) {
-    lines.push_back("and " + std::to_string(certificate.reasons.size() - 1) + " more: `gyre check` names them all");
+    lines.push_back("and " + std::to_string(certificate.reasons.size() - 1) + " more, which gyre check names");
   }
   return lines;
 }
@@ -82,35 +82,41 @@ double draw_header(Svg& svg, const std::string& name, const mechanics::Plan& pla
   svg.begin(kMuted);
   svg.words({kMargin, y}, summary(plan, certificate), {14.0});
   svg.end();
+  y += 4.0;
   svg.begin(kBad);
   for (const std::string& line : reason_lines(certificate)) svg.words({kMargin, y += kRow}, line, {kFont});
   svg.end();
   return y + 22.0;
 }
 
-/// Puts one thing beside the other, each `pitch` wide, and begins a new row where there is no room.
+/// Places in so many columns, row by row, from where frames begin.
 class Rows {
  public:
-  Rows(double top, double pitch) : at_{kIndent, top}, pitch_(pitch) {}
+  Rows(double top, int columns, double pitch) : top_(top), columns_(columns), pitch_(pitch) {}
 
   Point next() {
-    constexpr double kRounding = 1e-6;
-    if (at_.x + pitch_ > kWidth - kMargin + kRounding) at_ = {kIndent, at_.y + kRow};
-    at_.x += pitch_;
-    return {at_.x - pitch_, at_.y};
+    const int row = taken_ / columns_, column = taken_ % columns_;
+    ++taken_;
+    return {kIndent + column * pitch_, top_ + row * kRow};
   }
-  [[nodiscard]] double end() const { return at_.y + kRow; }
+  [[nodiscard]] double end() const { return top_ + (taken_ + columns_ - 1) / columns_ * kRow; }
 
  private:
-  Point at_;
+  double top_;
+  int columns_;
   double pitch_;
+  int taken_ = 0;
 };
 
-/// How closely things come, under the frame that it is drawn in; whose line it is stands before the words.
+std::string within(const mechanics::Approach& approach) {
+  return who(approach) + (approach.min_m > 0.0 ? " come within " + number_text(approach.min_m) + " m" : " touch");
+}
+
+/// How closely things come; whose line it is stands before the words.
 double draw_captions(Svg& svg, const Certificate& certificate, double top) {
   constexpr double kMark = 32.0, kMarkLength = 22.0;
-  Rows rows(top, 0.5 * (kInner + kGap));
-  const auto caption = [&](Point at, const std::string& words) {
+  Rows rows(top, 2, 0.5 * (kInner + kGap));
+  const auto caption = [&svg](Point at, const std::string& words) {
     svg.begin(kInk);
     svg.words(at, words, {kSmall});
     svg.end();
@@ -120,19 +126,20 @@ double draw_captions(Svg& svg, const Certificate& certificate, double top) {
     const Point at = rows.next();
     draw_approach(svg, {at.x + 2.5, at.y - 4.0}, {at.x + kMarkLength, at.y - 4.0},
                   (*approach)->what == mechanics::Touch::kCables);
-    caption({at.x + kMark, at.y}, who(**approach) + " come within " + number_text((*approach)->min_m) + " m");
+    caption({at.x + kMark, at.y}, within(**approach) + " (dotted)");
   }
-  if (certificate.clearance) {
-    caption(rows.next(), "a carrier may stray " + number_text(certificate.clearance->min_m) + " m before " +
-                             who(*certificate.clearance) + " touch");
+  const auto& clearance = certificate.clearance;
+  if (clearance && clearance->min_m > 0.0) {
+    caption(rows.next(), "one carrier may stray by " + number_text(clearance->min_m) +
+                             " m before anything touches: " + who(*clearance) + " would be the first");
   }
-  if (certificate.separation) caption(rows.next(), "dotted: where they are when they come closest");
   return rows.end();
 }
 
 double draw_legend(Svg& svg, const Motion& motion, double top) {
-  constexpr double kSwatch = 22.0, kInARow = 16.0;
-  Rows rows(top, (kWidth - kMargin - kIndent) / kInARow);
+  constexpr double kSwatch = 22.0;
+  constexpr int kInARow = 16;
+  Rows rows(top, kInARow, (kWidth - kMargin - kIndent) / kInARow);
   for (std::size_t i = 0; i < motion.carriers.size(); ++i) {
     const Point at = rows.next();
     svg.begin(carrier_tone(i));

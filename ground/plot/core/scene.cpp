@@ -62,8 +62,9 @@ double enclosed(const std::vector<Point>& orbit) {
 }
 
 /// Which way the orbit is flown, at two places of it.
-void draw_direction(Svg& svg, const std::vector<Point>& orbit) {
-  constexpr double kLeastEnclosed = 500.0, kSize = 5.0;
+void draw_direction(Svg& svg, const std::vector<Point>& orbit, bool few) {
+  constexpr double kLeastEnclosed = 500.0;
+  const double size = few ? 5.0 : 3.0;
   if (enclosed(orbit) < kLeastEnclosed) return;
   const std::size_t turns = orbit.size() - 1;
   for (const std::size_t at : {turns / 6, 2 * turns / 3}) {
@@ -71,7 +72,7 @@ void draw_direction(Svg& svg, const std::vector<Point>& orbit) {
     const Point way = towards(orbit[at - 1], orbit[at + 1]);
     const double length = norm(way);
     if (length < 0.2) continue;
-    const Point u{way.x / length * kSize, way.y / length * kSize};
+    const Point u{way.x / length * size, way.y / length * size};
     const Point tip = orbit[at];
     svg.area({{tip.x + u.x, tip.y + u.y},
               {tip.x - u.x - 0.8 * u.y, tip.y - u.y + 0.8 * u.x},
@@ -107,12 +108,14 @@ void draw_carrier(Svg& svg, const CarrierPath& path, std::size_t index, const Fr
   svg.end();
 }
 
-void draw_orbit(Svg& svg, const CarrierPath& path, std::size_t index, const Frame& frame) {
+void draw_orbit(Svg& svg, const Motion& motion, std::size_t index, const Frame& frame) {
+  const CarrierPath& path = motion.carriers[index];
   std::vector<Point> orbit;
   for (const Moment& moment : path.moments) orbit.push_back(frame(moment.position_w_m));
   svg.begin(carrier_tone(index));
-  svg.path(orbit, {1.5, 0.75, carrier_dash(index)});
-  draw_direction(svg, orbit);
+  const bool few = motion.carriers.size() <= kFew;
+  svg.path(orbit, {few ? 1.5 : 1.0, 0.75, carrier_dash(index)});
+  draw_direction(svg, orbit, few);
   svg.end();
 }
 
@@ -125,6 +128,24 @@ void draw_then(Svg& svg, const Nearest::Side& side, const Motion& motion, const 
   svg.end();
 }
 
+/// What a carrier's label stands beside: the carrier; of many, its whole orbit.
+struct Mark {
+  Point place;
+  double radius;
+};
+
+Mark mark(const CarrierPath& path, const Frame& frame, bool few) {
+  const double own = std::max(3.6, path.radius_m * frame.px_per_m());
+  if (few) return {frame(path.moments.front().position_w_m), own};
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Moment& moment : path.moments) sum += moment.position_w_m;
+  Mark out{frame(sum / static_cast<double>(path.moments.size())), 0.0};
+  for (const Moment& moment : path.moments)
+    out.radius = std::max(out.radius, norm(towards(out.place, frame(moment.position_w_m))));
+  out.radius += own;
+  return out;
+}
+
 void label_carriers(Svg& svg, const Motion& motion, const Frame& frame, Labels& labels) {
   const bool few = motion.carriers.size() <= kFew;
   if (!few && frame.view.up.z() > 0.0) return;
@@ -133,11 +154,9 @@ void label_carriers(Svg& svg, const Motion& motion, const Frame& frame, Labels& 
   for (const CarrierPath& path : motion.carriers) middle += path.attachment_w_m;
   const Point centre = frame(middle / static_cast<double>(motion.carriers.size()));
   for (std::size_t i = 0; i < motion.carriers.size(); ++i) {
-    const CarrierPath& path = motion.carriers[i];
-    const Point place = frame(path.moments.front().position_w_m);
-    const std::string id = std::to_string(path.id);
-    const double gap = std::max(3.6, path.radius_m * frame.px_per_m()) + 3.0;
-    const auto room = labels.place(id, font, place, gap, towards(centre, place));
+    const std::string id = std::to_string(motion.carriers[i].id);
+    const Mark at = mark(motion.carriers[i], frame, few);
+    const auto room = labels.place(id, font, at.place, at.radius + 3.0, towards(centre, at.place));
     if (!room) continue;
     svg.begin(carrier_tone(i));
     svg.words(*room, id, {font, Anchor::kMiddle, true, true});
@@ -191,7 +210,7 @@ void draw_scene(Svg& svg, const Motion& motion, const Frame& frame) {
     if (*approach) approaches.push_back(**approach);
   }
   draw_axes(svg, frame);
-  for (std::size_t i = 0; i < motion.carriers.size(); ++i) draw_orbit(svg, motion.carriers[i], i, frame);
+  for (std::size_t i = 0; i < motion.carriers.size(); ++i) draw_orbit(svg, motion, i, frame);
   for (const Nearest& nearest : approaches) {
     draw_then(svg, nearest.first, motion, frame);
     draw_then(svg, nearest.second, motion, frame);

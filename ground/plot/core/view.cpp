@@ -27,9 +27,10 @@ Range extent(const Motion& motion, const Eigen::Vector3d& along) {
 
 /// The ground is in the picture where it is near: else it would make everything else small. Where the load's own place
 /// is not above it, altitudes count from elsewhere.
-bool near_ground(const Range& altitude) {
+Range with_ground(Range altitude) {
   constexpr double kNear = 0.35;
-  return altitude.min > 0.0 && altitude.min < kNear * altitude.span();
+  if (altitude.min > 0.0 && altitude.min < kNear * altitude.span()) altitude.include(0.0);
+  return altitude;
 }
 
 /// A range as wide as so many px are, about the middle of another.
@@ -52,9 +53,7 @@ Frames frames(const Motion& motion, Point top_left, double width) {
   const View side = across_x.span() >= across_y.span() ? View{"From the side, along +y", "x", "altitude", x, z}
                                                        : View{"From the side, along \u2212x", "y", "altitude", y, z};
   const Range across = across_x.span() >= across_y.span() ? across_x : across_y;
-  Range altitude = extent(motion, z);
-  const bool grounded = near_ground(altitude);
-  if (grounded) altitude.include(0.0);
+  const Range altitude = with_ground(extent(motion, z));
 
   const double plot_width = 0.5 * (width - kGap) - kLeft;
   const double wide = std::max(across.span(), 1e-6);
@@ -62,13 +61,15 @@ Frames frames(const Motion& motion, Point top_left, double width) {
   const double px_per_m = std::min((plot_width - 2.0 * kRim) / wide, (kMostHeight - 2.0 * kRim) / high);
   const double height = std::clamp(px_per_m * high + 2.0 * kRim, kLeastHeight, kMostHeight);
 
-  const auto frame = [&](const View& view, double left, const Range& right, const Range& up, bool shows_ground) {
+  const auto frame = [&](const View& view, double left, const Range& right, const Range& up) {
     const Box plot{left + kLeft, top_left.y + kTop, left + kLeft + plot_width, top_left.y + kTop + height};
     return Frame{view, plot, centred(right, px_per_m, plot.left, plot.right),
-                 centred(up, px_per_m, plot.bottom, plot.top), shows_ground};
+                 centred(up, px_per_m, plot.bottom, plot.top)};
   };
-  return {frame(above, top_left.x, across_x, across_y, false),
-          frame(side, top_left.x + kLeft + plot_width + kGap, across, altitude, grounded)};
+  Frames out{frame(above, top_left.x, across_x, across_y),
+             frame(side, top_left.x + kLeft + plot_width + kGap, across, altitude)};
+  out.side.shows_ground = extent(motion, z).min > 0.0 && out.side.up.shown.min < 0.0;
+  return out;
 }
 
 std::vector<Point> hull_of(std::vector<Point> points) {

@@ -108,13 +108,14 @@ void draw_carrier(Svg& svg, const CarrierPath& path, std::size_t index, const Fr
   svg.end();
 }
 
+/// All along: of many carriers an orbit is too short for its dash; the cable has it.
 void draw_orbit(Svg& svg, const Motion& motion, std::size_t index, const Frame& frame) {
   const CarrierPath& path = motion.carriers[index];
   std::vector<Point> orbit;
   for (const Moment& moment : path.moments) orbit.push_back(frame(moment.position_w_m));
   svg.begin(carrier_tone(index));
   const bool few = motion.carriers.size() <= kFew;
-  svg.path(orbit, {few ? 1.5 : 1.0, 0.75, carrier_dash(index)});
+  svg.path(orbit, {few ? 1.5 : 0.9, 0.75});
   draw_direction(svg, orbit, few);
   svg.end();
 }

@@ -14,7 +14,7 @@ namespace {
 using mechanics::CarrierSlice;
 
 constexpr std::size_t kFew = 12;
-constexpr int kPerCycle = 96, kPerCycleOfMany = 48, kMost = 768;
+constexpr int kPerSwing = 96, kPerSwingOfMany = 48, kMost = 1536;
 
 Moment moment(const CarrierSlice& slice, double t_s) {
   const mechanics::Reference now = mechanics::evaluate(slice, t_s);
@@ -24,6 +24,17 @@ Moment moment(const CarrierSlice& slice, double t_s) {
           now.length_m.value,
           now.position_w_m.first.norm(),
           now.length_m.first};
+}
+
+/// So many in a period that the fastest of what swings in it is seen to swing.
+int samples(const mechanics::Plan& plan, double period_s) {
+  double fastest = 1.0;  // swings in a cycle
+  for (const mechanics::Carrier& carrier : plan.carriers) {
+    if (!carrier.law.profile.constant()) fastest = std::max(fastest, carrier.law.profile.harmonic.ratio());
+  }
+  const int per_swing = plan.carriers.size() <= kFew ? kPerSwing : kPerSwingOfMany;
+  const double swings = fastest * period_s * plan.cycle.rate_rad_s / kTwoPi;
+  return static_cast<int>(std::clamp(std::round(swings) * per_swing, 1.0 * per_swing, 1.0 * kMost));
 }
 
 std::optional<Nearest> nearest(const std::optional<mechanics::Approach>& approach,
@@ -52,9 +63,7 @@ Motion motion(const mechanics::Plan& plan, const mechanics::Certificate& certifi
   const std::vector<CarrierSlice> slices = mechanics::slices(plan);
   Motion out;
   out.period_s = certificate.period_s;
-  const double cycles = std::round(out.period_s * plan.cycle.rate_rad_s / kTwoPi);
-  const int per_cycle = slices.size() <= kFew ? kPerCycle : kPerCycleOfMany;
-  const int count = static_cast<int>(std::clamp(cycles * per_cycle, 1.0 * per_cycle, 1.0 * kMost));
+  const int count = samples(plan, out.period_s);
   for (std::size_t i = 0; i < slices.size(); ++i) {
     CarrierPath path{slices[i].id, plan.carriers[i].radius_m, slices[i].attachment_w_m, {}};
     for (int k = 0; k <= count; ++k) path.moments.push_back(moment(slices[i], out.period_s * k / count));

@@ -9,7 +9,8 @@ using mechanics::Range;
 
 constexpr double kGap = 32.0, kLeft = 44.0, kTop = 26.0;  // between frames; what axes and titles need
 constexpr double kLeastHeight = 190.0, kMostHeight = 410.0;
-constexpr double kRim = 30.0;  // inside a frame, for labels
+constexpr double kRim = 30.0;                            // inside a frame, for labels
+constexpr double kPoint_m = 1e-6, kPointOfPlace = 1e-9;  // what extends less is a point
 
 Range extent(const Motion& motion, const Eigen::Vector3d& along) {
   Range out;
@@ -56,8 +57,12 @@ Frames frames(const Motion& motion, Point top_left, double width) {
   const Range altitude = with_ground(extent(motion, z));
 
   const double plot_width = 0.5 * (width - kGap) - kLeft;
-  const double wide = std::max(across.span(), 1e-6);
-  const double high = std::max({across_y.span(), altitude.span(), 1e-6});
+  double wide = across.span(), high = std::max(across_y.span(), altitude.span());
+  for (const Range& range : {across_x, across_y, altitude}) {
+    const double point = std::max(kPoint_m, kPointOfPlace * std::max(std::abs(range.min), std::abs(range.max)));
+    wide = std::max(wide, point);
+    high = std::max(high, point);
+  }
   const double px_per_m = std::min((plot_width - 2.0 * kRim) / wide, (kMostHeight - 2.0 * kRim) / high);
   const double height = std::clamp(px_per_m * high + 2.0 * kRim, kLeastHeight, kMostHeight);
 

@@ -58,7 +58,7 @@ TEST_F(PlotCommand, AMotionWithoutBoundsIsOneAndNoFile) {
   const std::string mission = in_folder("unbounded.textproto");
   std::string text = content(std::string(GYRE_SOURCE_DIR) + "/deploy/missions/single.textproto");
   const std::size_t law = text.find("sine {");
-  text.replace(law, text.find('}', law) + 1 - law, "directional { direction { x: 1 } profile { mean_m: 1 } }");
+  text.replace(law, text.find('}', law) + 1 - law, "directional { direction { x: 1 } mean_m: 1 }");
   std::ofstream(mission) << text;
   const Answer answer = plot("'" + mission + "'", in_folder("out.svg"));
   EXPECT_EQ(answer.exit_code, 1) << answer.complaint;

@@ -126,7 +126,7 @@ double draw_captions(Svg& svg, const Certificate& certificate, double top) {
     const Point at = rows.next();
     draw_approach(svg, {at.x + 2.5, at.y - 4.0}, {at.x + kMarkLength, at.y - 4.0},
                   (*approach)->what == mechanics::Touch::kCables);
-    caption({at.x + kMark, at.y}, within(**approach) + " (dotted)");
+    caption({at.x + kMark, at.y}, within(**approach));
   }
   const auto& clearance = certificate.clearance;
   if (clearance && clearance->min_m > 0.0) {

@@ -20,7 +20,7 @@ double norm(Point v) {
   return std::hypot(v.x, v.y);
 }
 
-void draw_axes(Svg& svg, const Frame& frame) {
+void draw_axes(Svg& svg, const Frame& frame, const std::string& remark) {
   const Box& plot = frame.plot;
   svg.begin(kInk);
   svg.words({plot.left, plot.top - 11.0}, frame.view.title, {kTitleFont, Anchor::kStart, true});
@@ -44,6 +44,7 @@ void draw_axes(Svg& svg, const Frame& frame) {
     svg.words({plot.left - 6.0, frame.up(tick.figure) + 4.0}, shortened(tick.words, kAxisFont, 46.0),
               {kAxisFont, Anchor::kEnd});
   }
+  svg.words({plot.left + width_of(frame.view.title, kTitleFont) + 12.0, plot.top - 11.0}, remark, {kAxisFont});
   svg.words({plot.right, plot.bottom + 30.0}, std::string(frame.view.right_name) + ", m", {kAxisFont, Anchor::kEnd});
   svg.words({plot.right, plot.top - 11.0}, std::string(frame.view.up_name) + ", m", {kAxisFont, Anchor::kEnd});
   if (frame.shows_ground) {
@@ -210,7 +211,7 @@ void draw_scene(Svg& svg, const Motion& motion, const Frame& frame) {
   for (const auto* approach : {&motion.places, &motion.cables}) {
     if (*approach) approaches.push_back(**approach);
   }
-  draw_axes(svg, frame);
+  draw_axes(svg, frame, approaches.empty() ? "" : "dotted: when closest");
   for (std::size_t i = 0; i < motion.carriers.size(); ++i) draw_orbit(svg, motion, i, frame);
   for (const Nearest& nearest : approaches) {
     draw_then(svg, nearest.first, motion, frame);

@@ -174,15 +174,19 @@ std::string escaped(const std::string& words) {
 }
 
 double width_of(const std::string& words, double font_size) {
-  constexpr double kEmPerCharacter = 0.58;  // digits of wide fonts are that wide, and few letters wider
-  constexpr double kEmPerForeign = 1.0;
-  double em = 0.0;
+  const auto em = [](char c) {
+    if (std::strchr(" .,:;'|!()[]ijlft-", c) != nullptr) return 0.4;
+    if (std::strchr("mwMW", c) != nullptr) return 1.0;
+    return (c >= '0' && c <= '9') || c == '_' ? 0.64 : c >= 'A' && c <= 'Z' ? 0.74 : 0.62;
+  };
+  constexpr double kForeign = 1.0;
+  double out = 0.0;
   for (std::size_t at = 0; at < words.size();) {
     const std::size_t bytes = std::max<std::size_t>(character_at(words, at), 1);
-    em += bytes == 1 ? kEmPerCharacter : kEmPerForeign;
+    out += bytes == 1 ? em(words[at]) : kForeign;
     at += bytes;
   }
-  return em * font_size;
+  return out * font_size;
 }
 
 std::string shortened(const std::string& words, double font_size, double width) {

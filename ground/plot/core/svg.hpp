@@ -68,7 +68,7 @@ class Svg {
 /// In any text or attribute; what XML cannot say is replaced by the sign for that (U+FFFD).
 [[nodiscard]] std::string escaped(const std::string& words);
 
-/// A length as most fonts draw it, rather too long than too short.
+/// As wide as a wide font draws it: rather too long than too short.
 [[nodiscard]] double width_of(const std::string& words, double font_size);
 
 /// As much of the words as fits, with dots where some are left out.

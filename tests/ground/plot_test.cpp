@@ -107,7 +107,7 @@ TEST(Plot, WhatIsWrittenCanBeRead) {
 }
 
 RC_GTEST_PROP(Plot, WhatIsWrittenOfAnyPlanCanBeRead, ()) {
-  Plan plan = mechanics::test::random_plan();
+  Plan plan = mechanics::test::random_plan({3, 8});
   for (mechanics::Carrier& carrier : plan.carriers) carrier.radius_m = mechanics::test::real(0.0, 0.5);
   const SvgFile file = read_svg(picture("random", plan));
   RC_ASSERT(file.complaint.empty());

@@ -125,7 +125,7 @@ void draw_limit(Svg& svg, double limit, bool is_shown, bool is_max, bool broken,
 using Curve = std::vector<Point>;
 
 bool look_alike(const Curve& a, const Curve& b) {
-  constexpr double kNobodySees = 0.7;  // px
+  constexpr double kNobodySees = 0.35;  // px
   return std::equal(a.begin(), a.end(), b.begin(),
                     [](const Point& p, const Point& q) { return std::abs(p.y - q.y) < kNobodySees; });
 }

@@ -27,6 +27,7 @@ bool Labels::has_room(const Box& box) const {
 std::optional<Point> Labels::place(const std::string& words, double font_size, Point mark, double gap, Point wish) {
   constexpr int kDirections = 16;
   constexpr double kHeight = 0.74;  // of a font's capitals and digits, in its size
+  constexpr double kRim = 1.5;      // px, so that two are told apart
   const double half_width = 0.5 * width_of(words, font_size);
   const double half_height = 0.5 * kHeight * font_size;
   const double first = std::atan2(wish.y, wish.x);
@@ -39,7 +40,8 @@ std::optional<Point> Labels::place(const std::string& words, double font_size, P
       const double reach =
           gap + further + std::min(half_width / std::max(std::abs(x), 1e-9), half_height / std::max(std::abs(y), 1e-9));
       const Point middle{mark.x + reach * x, mark.y + reach * y};
-      const Box box{middle.x - half_width, middle.y - half_height, middle.x + half_width, middle.y + half_height};
+      const Box box{middle.x - half_width - kRim, middle.y - half_height - kRim, middle.x + half_width + kRim,
+                    middle.y + half_height + kRim};
       if (!has_room(box)) continue;
       occupy(box);
       return Point{middle.x, middle.y + half_height};

@@ -43,10 +43,11 @@ std::optional<Error> write_picture(const std::string& path, const std::string& p
     return written(path, picture) ? std::nullopt : std::optional(failed);
   const fs::path target = fs::exists(there) ? fs::canonical(path, problem) : fs::path(path);
   const fs::path aside = target.string() + "." + std::to_string(::getpid()) + ".new";
-  if (written(aside, picture))
+  if (written(aside, picture)) {
     fs::rename(aside, target, problem);
-  else
+  } else {
     problem = std::make_error_code(std::errc::io_error);
+  }
   if (!problem) return std::nullopt;
   std::error_code ignored;
   fs::remove(aside, ignored);

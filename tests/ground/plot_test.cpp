@@ -114,6 +114,31 @@ RC_GTEST_PROP(Plot, WhatIsWrittenOfAnyPlanCanBeRead, ()) {
   RC_ASSERT(overlap(file) == "");
 }
 
+/// In both views, as far from each other as the period's begin has them, and as large as they are.
+TEST(Plot, VehiclesStandWhereTheyAreAndAreAsLargeAsTheyAre) {
+  const Plan plan = shipped("hex-multirotor").plan;
+  const ground::Motion motion = ground::motion(plan, mechanics::certify(plan));
+  const ground::Frames frames = ground::frames(motion, {0.0, 0.0}, 944.0);
+  const double radius = 0.4 * frames.above.px_per_m();
+  std::vector<std::vector<Point>> vehicles(motion.carriers.size());  // from above, from the side
+  for (const Element& circle : drawn(plan).all("circle")) {
+    if (circle.attributes.at("fill") == "none" || std::abs(circle.number("r") - radius) > 0.01) continue;
+    for (std::size_t i = 0; i < vehicles.size(); ++i) {
+      if (circle.tone == tone_of(i)) vehicles[i].push_back({circle.number("cx"), circle.number("cy")});
+    }
+  }
+  for (std::size_t i = 0; i < vehicles.size(); ++i) {
+    ASSERT_EQ(vehicles[i].size(), 2u);
+    for (const std::size_t view : {0u, 1u}) {
+      const ground::Frame& frame = view == 0 ? frames.above : frames.side;
+      const Point here = frame(motion.carriers[i].moments.front().position_w_m);
+      const Point first = frame(motion.carriers[0].moments.front().position_w_m);
+      EXPECT_NEAR(vehicles[i][view].x - vehicles[0][view].x, here.x - first.x, 0.02);
+      EXPECT_NEAR(vehicles[i][view].y - vehicles[0][view].y, here.y - first.y, 0.02);
+    }
+  }
+}
+
 TEST(Plot, CurvesRunWithinTheCertifiedBand) {
   const SvgFile file = drawn(shipped("penta-tilted").plan);
   std::vector<Element> bands;

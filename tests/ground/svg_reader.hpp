@@ -63,7 +63,7 @@ class SvgReader {
     std::string out;
     for (std::size_t i = 0; i < raw.size(); ++i) {
       const auto byte = static_cast<unsigned char>(raw[i]);
-      if (byte < 0x20 && !std::strchr("\t\n\r", raw[i])) complain("a control character");
+      if (byte == 0 || (byte < 0x20 && !std::strchr("\t\n\r", raw[i]))) complain("a control character");
       if (raw[i] != '&') {
         out += raw[i];
         continue;

@@ -132,12 +132,11 @@ bool look_alike(const Curve& a, const Curve& b) {
 
 /// Where carriers do the same, they take turns along the line. Of many carriers lines are fine, to be seen through.
 void draw_curves(Svg& svg, const std::vector<Curve>& curves) {
-  constexpr std::size_t kFew = 12;
   constexpr int kTurn = 9;  // px
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    Stroke stroke = curves.size() <= kFew ? Stroke{1.7, 0.95} : Stroke{0.9, 0.6};
+    Stroke stroke = curves.size() <= kFewCarriers ? Stroke{1.7, 0.95} : Stroke{0.9, 0.6};
     int alike = 0, before = 0;
-    for (std::size_t j = 0; j < curves.size() && curves.size() <= kFew; ++j) {
+    for (std::size_t j = 0; j < curves.size() && curves.size() <= kFewCarriers; ++j) {
       if (!look_alike(curves[i], curves[j])) continue;
       ++alike;
       if (j < i) ++before;

@@ -13,7 +13,6 @@ namespace {
 
 using mechanics::CarrierSlice;
 
-constexpr std::size_t kFew = 12;
 constexpr int kPerSwing = 96, kPerSwingOfMany = 48, kMost = 1536;
 
 Moment moment(const CarrierSlice& slice, double t_s) {
@@ -32,7 +31,7 @@ int samples(const mechanics::Plan& plan, double period_s) {
   for (const mechanics::Carrier& carrier : plan.carriers) {
     if (!carrier.law.profile.constant()) fastest = std::max(fastest, carrier.law.profile.harmonic.ratio());
   }
-  const int per_swing = plan.carriers.size() <= kFew ? kPerSwing : kPerSwingOfMany;
+  const int per_swing = plan.carriers.size() <= kFewCarriers ? kPerSwing : kPerSwingOfMany;
   const double swings = fastest * period_s * plan.cycle.rate_rad_s / kTwoPi;
   return static_cast<int>(std::clamp(std::round(swings) * per_swing, 1.0 * per_swing, 1.0 * kMost));
 }

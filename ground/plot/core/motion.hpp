@@ -14,6 +14,9 @@
 
 namespace gyre::ground {
 
+/// So many are told apart one by one; of more, lines are finer and words fewer.
+inline constexpr std::size_t kFewCarriers = 12;
+
 struct Moment {
   double t_s = 0.0;
   Eigen::Vector3d position_w_m = Eigen::Vector3d::Zero();
@@ -45,6 +48,10 @@ struct Motion {
   Eigen::Vector3d load_position_w_m = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> load_w_m;  ///< the corners of its hull; without one, its attachments
 };
+
+[[nodiscard]] inline bool few(const Motion& motion) {
+  return motion.carriers.size() <= kFewCarriers;
+}
 
 /// Of a valid plan that has a bounded motion, with its certificate.
 [[nodiscard]] Motion motion(const mechanics::Plan& plan, const mechanics::Certificate& certificate);

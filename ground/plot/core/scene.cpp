@@ -10,7 +10,6 @@ namespace gyre::ground {
 namespace {
 
 constexpr double kAxisFont = 11.0, kTitleFont = 13.0, kFigureFont = 11.5;
-constexpr std::size_t kFew = 12;  // carriers; of more, labels are smaller and only in the view from above
 
 Point towards(Point from, Point to) {
   return {to.x - from.x, to.y - from.y};
@@ -41,7 +40,7 @@ void draw_axes(Svg& svg, const Frame& frame, const std::string& remark) {
   for (const Tick& tick : across)
     svg.words({frame.right(tick.figure), plot.bottom + 15.0}, tick.words, {kAxisFont, Anchor::kMiddle});
   for (const Tick& tick : up) {
-    svg.words({plot.left - 6.0, frame.up(tick.figure) + 4.0}, shortened(tick.words, kAxisFont, 46.0),
+    svg.words({plot.left - 6.0, frame.up(tick.figure) + 4.0}, shortened(tick.words, kAxisFont, 64.0),
               {kAxisFont, Anchor::kEnd});
   }
   svg.words({plot.left + width_of(frame.view.title, kTitleFont) + 12.0, plot.top - 11.0}, remark, {kAxisFont});
@@ -63,9 +62,8 @@ double enclosed(const std::vector<Point>& orbit) {
 }
 
 /// Which way the orbit is flown, at two places of it.
-void draw_direction(Svg& svg, const std::vector<Point>& orbit, bool few) {
+void draw_direction(Svg& svg, const std::vector<Point>& orbit, double size) {
   constexpr double kLeastEnclosed = 500.0;
-  const double size = few ? 5.0 : 3.0;
   if (enclosed(orbit) < kLeastEnclosed) return;
   const std::size_t turns = orbit.size() - 1;
   for (const std::size_t at : {turns / 6, 2 * turns / 3}) {
@@ -73,6 +71,7 @@ void draw_direction(Svg& svg, const std::vector<Point>& orbit, bool few) {
     const Point way = towards(orbit[at - 1], orbit[at + 1]);
     const double length = norm(way);
     if (length < 0.2) continue;
+    // an arrow's head, notched at its back
     const Point u{way.x / length * size, way.y / length * size};
     const Point tip = orbit[at];
     svg.area({{tip.x + u.x, tip.y + u.y},
@@ -115,9 +114,8 @@ void draw_orbit(Svg& svg, const Motion& motion, std::size_t index, const Frame& 
   std::vector<Point> orbit;
   for (const Moment& moment : path.moments) orbit.push_back(frame(moment.position_w_m));
   svg.begin(carrier_tone(index));
-  const bool few = motion.carriers.size() <= kFew;
-  svg.path(orbit, {few ? 1.5 : 0.9, 0.75});
-  draw_direction(svg, orbit, few);
+  svg.path(orbit, {few(motion) ? 1.5 : 0.9, 0.75});
+  draw_direction(svg, orbit, few(motion) ? 5.0 : 3.0);
   svg.end();
 }
 
@@ -136,9 +134,9 @@ struct Mark {
   double radius;
 };
 
-Mark mark(const CarrierPath& path, const Frame& frame, bool few) {
+Mark mark(const CarrierPath& path, const Frame& frame, bool alone) {
   const double own = std::max(3.6, path.radius_m * frame.px_per_m());
-  if (few) return {frame(path.moments.front().position_w_m), own};
+  if (alone) return {frame(path.moments.front().position_w_m), own};
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Moment& moment : path.moments) sum += moment.position_w_m;
   Mark out{frame(sum / static_cast<double>(path.moments.size())), 0.0};
@@ -148,16 +146,16 @@ Mark mark(const CarrierPath& path, const Frame& frame, bool few) {
   return out;
 }
 
+/// Of many in the view from above alone: from the side they are behind each other.
 void label_carriers(Svg& svg, const Motion& motion, const Frame& frame, Labels& labels) {
-  const bool few = motion.carriers.size() <= kFew;
-  if (!few && frame.view.up.z() > 0.0) return;
-  const double font = few ? 13.0 : 9.0;
+  if (!few(motion) && frame.view.up.z() > 0.0) return;
+  const double font = few(motion) ? 13.0 : 9.0;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const CarrierPath& path : motion.carriers) middle += path.attachment_w_m;
   const Point centre = frame(middle / static_cast<double>(motion.carriers.size()));
   for (std::size_t i = 0; i < motion.carriers.size(); ++i) {
     const std::string id = std::to_string(motion.carriers[i].id);
-    const Mark at = mark(motion.carriers[i], frame, few);
+    const Mark at = mark(motion.carriers[i], frame, few(motion));
     const auto room = labels.place(id, font, at.place, at.radius + 3.0, towards(centre, at.place));
     if (!room) continue;
     svg.begin(carrier_tone(i));
@@ -181,12 +179,11 @@ void label_approach(Svg& svg, const Nearest& nearest, const Frame& frame, Labels
 /// What no words may cover: carriers, and of few of them their cables too.
 Labels taken(const Motion& motion, const Frame& frame) {
   Labels labels(frame.plot);
-  const bool few = motion.carriers.size() <= kFew;
   for (const CarrierPath& path : motion.carriers) {
     const Point place = frame(path.moments.front().position_w_m);
     const double half = std::max(3.6, path.radius_m * frame.px_per_m());
     labels.occupy({place.x - half, place.y - half, place.x + half, place.y + half});
-    if (few) labels.occupy(frame(path.attachment_w_m), place, 2.0);
+    if (few(motion)) labels.occupy(frame(path.attachment_w_m), place, 2.0);
   }
   return labels;
 }

@@ -238,7 +238,10 @@ TEST(Plot, OrbitsOfAllLawsCloseAndAreSeenWhole) {
   for (const Plan& plan : plans()) {
     const ground::Motion motion = ground::motion(plan, mechanics::certify(plan));
     const ground::Frames frames = ground::frames(motion, {28.0, 100.0}, 944.0);
-    EXPECT_NEAR(frames.above.px_per_m(), frames.side.px_per_m(), 1e-9 * frames.above.px_per_m());
+    for (const ground::Frame* frame : {&frames.above, &frames.side}) {
+      EXPECT_NEAR(frame->px_per_m(), frames.above.px_per_m(), 1e-9 * frames.above.px_per_m());
+      EXPECT_NEAR(frame->plot.height() / frame->up.shown.span(), frame->px_per_m(), 1e-9 * frame->px_per_m());
+    }
     for (const ground::CarrierPath& path : motion.carriers) {
       EXPECT_LT((path.moments.front().position_w_m - path.moments.back().position_w_m).norm(), 1e-6);
       for (const ground::Moment& moment : path.moments) {

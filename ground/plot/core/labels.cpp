@@ -34,7 +34,8 @@ std::optional<Point> Labels::place(const std::string& words, double font_size, P
   for (const double further : {0.0, 6.0, 14.0, 24.0, 36.0}) {
     for (int k = 0; k < kDirections; ++k) {
       // the wish, then to either side of it by turns
-      const double angle = first + (k % 2 == 0 ? 1 : -1) * ((k + 1) / 2) * (kTwoPi / kDirections);
+      const int turn = (k + 1) / 2;
+      const double angle = first + (k % 2 == 0 ? turn : -turn) * (kTwoPi / kDirections);
       const double x = std::cos(angle), y = std::sin(angle);
       // so far that the box of the words is off the mark
       const double reach =

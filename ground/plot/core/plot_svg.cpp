@@ -99,7 +99,10 @@ class Rows {
     ++taken_;
     return {kIndent + column * pitch_, top_ + row * kRow};
   }
-  [[nodiscard]] double end() const { return top_ + (taken_ + columns_ - 1) / columns_ * kRow; }
+  [[nodiscard]] double end() const {
+    const int rows = (taken_ + columns_ - 1) / columns_;
+    return top_ + rows * kRow;
+  }
 
  private:
   double top_;
@@ -156,12 +159,14 @@ double draw_charts(Svg& svg, const mechanics::Plan& plan, const Certificate& cer
   const double width = 0.5 * (kInner - kGap);
   const std::vector<Figure> all = figures(plan.limits);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const double left = kMargin + static_cast<double>(i % 2) * (width + kGap);
-    const double row_top = top + static_cast<double>(i / 2) * kChartHeight;
+    const std::size_t row = i / 2, column = i % 2;
+    const double left = kMargin + static_cast<double>(column) * (width + kGap);
+    const double row_top = top + static_cast<double>(row) * kChartHeight;
     draw_chart(svg, all[i], motion, certificate,
                {left, row_top, left + width, row_top + kChartHeight - kBetweenCharts});
   }
-  return top + static_cast<double>((all.size() + 1) / 2) * kChartHeight;
+  const std::size_t rows = (all.size() + 1) / 2;
+  return top + static_cast<double>(rows) * kChartHeight;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "ground/check/check.hpp"
 #include "ground/check/sample.hpp"
 #include "ground/flight/fly.hpp"
+#include "ground/plot/plot.hpp"
 #include "ground/swarm/health.hpp"
 #include "ground/swarm/orders.hpp"
 #include "ground/swarm/status.hpp"
@@ -14,7 +15,7 @@ int main(int argc, char** argv) {
       gyre::program::Family{
           "gyre",
           "Gyre: a load that hangs still while the vehicles that carry it never stop.",
-          {check_command(), sample_command(), fly_command(), engage_command(), release_command(), freeze_command(),
-           pace_command(), retune_command(), status_command(), watch_command(), health_command()}},
+          {check_command(), sample_command(), plot_command(), fly_command(), engage_command(), release_command(),
+           freeze_command(), pace_command(), retune_command(), status_command(), watch_command(), health_command()}},
       argc, argv);
 }

@@ -225,8 +225,8 @@ std::vector<std::vector<mechanics::TimedLayer>> Leading::stacks_of(const Course&
 /// Of the carriers whose plans are known; its transitions included.
 Duration Leading::skew_budget(const Course& course) const {
   constexpr double kForever_s = 1e6;
-  const double budget_s = mechanics::skew_budget_s(stacks_of(course, course.base.epoch),
-                                                   job_.plan.load.mass_kg * job_.plan.gravity_m_s2);
+  const double budget_s =
+      mechanics::skew_budget_s(stacks_of(course, course.base.epoch), job_.plan.load.mass_kg * job_.plan.gravity_m_s2);
   return budget_s < kForever_s ? from_seconds(budget_s) : Duration::zero();
 }
 

@@ -82,7 +82,7 @@ class Leading {
   void stop_with(LocalTime now, const PathJudge::Stuck& stuck, Outputs& out);
   void drive(LocalTime now, Outputs& out);
   [[nodiscard]] std::vector<std::vector<mechanics::TimedLayer>> stacks_of(const protocol::Course& course,
-                                                                         PlanTime origin) const;
+                                                                          PlanTime origin) const;
   [[nodiscard]] Duration skew_budget(const protocol::Course& course) const;
   void begin(LocalTime now, const Intent& intent);
   void schedule(LocalTime now);

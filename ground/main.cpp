@@ -4,6 +4,7 @@
 #include "ground/check/sample.hpp"
 #include "ground/design/design.hpp"
 #include "ground/flight/fly.hpp"
+#include "ground/plot/plot.hpp"
 #include "ground/swarm/health.hpp"
 #include "ground/swarm/orders.hpp"
 #include "ground/swarm/status.hpp"
@@ -12,10 +13,10 @@
 int main(int argc, char** argv) {
   using namespace gyre::ground;
   return gyre::program::run(
-      gyre::program::Family{
-          "gyre",
-          "Gyre: a load that hangs still while the vehicles that carry it never stop.",
-          {check_command(), sample_command(), design_command(), fly_command(), engage_command(), release_command(),
-           freeze_command(), pace_command(), retune_command(), status_command(), watch_command(), health_command()}},
+      gyre::program::Family{"gyre",
+                            "Gyre: a load that hangs still while the vehicles that carry it never stop.",
+                            {check_command(), sample_command(), design_command(), plot_command(), fly_command(),
+                             engage_command(), release_command(), freeze_command(), pace_command(), retune_command(),
+                             status_command(), watch_command(), health_command()}},
       argc, argv);
 }

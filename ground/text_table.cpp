@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "common/base/text.hpp"
 
@@ -21,6 +22,19 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows) {
     out += line + "\n";
   }
   return out;
+}
+
+std::vector<std::string> wrapped(const std::string& words, std::size_t width) {
+  std::istringstream stream(words);
+  std::vector<std::string> lines;
+  for (std::string word; stream >> word;) {
+    if (lines.empty() || lines.back().size() + 1 + word.size() > width) {
+      lines.push_back(word);
+    } else {
+      lines.back() += " " + word;
+    }
+  }
+  return lines;
 }
 
 std::string number_text(double value, double smallest) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
 
 #include "common/base/angle.hpp"
 #include "common/mechanics/reference.hpp"
@@ -89,15 +88,15 @@ class SwingLook {
       : motion_(plan, slices, period_s), stiffness_min_1_s2_(stiffness_min_1_s2), rate_rad_s_(plan.cycle.rate_rad_s) {
     steps_ = std::max(static_cast<double>(kStepsPerTurn * motion_.turns()),
                       std::ceil(period_s * motion_.pendulum_rad_s() / kFirstStepAngle));
-    // Halved until that makes no difference any more; it makes 32 times less each time.
+    // Halved until that makes no difference any more: it makes 32 times less each time.
     own_1_s_ = growth(1.0);
-    for (double coarser = 0.0; steps_ < kMaxSteps;) {
-      steps_ *= 2.0;
-      coarser = std::exchange(own_1_s_, growth(1.0));
-      if (std::abs(own_1_s_ - coarser) > kNeutralGrowth_1_s + kAgree * std::abs(own_1_s_)) continue;
-      steps_ /= 2.0;  // they were enough
-      break;
+    bool enough = false;
+    for (; !enough && 2.0 * steps_ <= kMaxSteps; steps_ *= enough ? 1.0 : 2.0) {
+      const double finer = motion_.growth({1.0, 1.0, static_cast<std::size_t>(2.0 * steps_)});
+      enough = std::abs(finer - own_1_s_) <= kNeutralGrowth_1_s + kAgree * std::abs(finer);
+      own_1_s_ = finer;
     }
+    if (!enough && as_a_rest(1.0)) own_1_s_ = at_rest();
   }
 
   [[nodiscard]] double own_1_s() const { return own_1_s_; }
@@ -113,14 +112,16 @@ class SwingLook {
   [[nodiscard]] double growth(double pace, double inertia_factor = 1.0) {
     // Doubled where the pace halves, so that few tables of moments serve all paces.
     const double needed = steps_ * std::exp2(std::ceil(std::log2(1.0 / pace) - 0.5));
-    // A motion that takes more to follow is as good as a rest, if it is slow or does not hold the load by itself; of
-    // another one only the fastest swings are followed too coarsely, and damped.
-    if (needed > kMaxSteps && (slow(pace) || stiffness_min_1_s2_ <= 0.0)) return at_rest();
+    if (needed > kMaxSteps && as_a_rest(pace)) return at_rest();
     const auto steps = static_cast<std::size_t>(std::min<double>(needed, kMaxSteps));
     return motion_.growth({pace, inertia_factor, steps});
   }
 
  private:
+  /// What a motion is taken for that takes more steps than there are. Of one that is fast and holds the load at all
+  /// moments only the fastest swings are followed too coarsely, and damped.
+  [[nodiscard]] bool as_a_rest(double pace) const { return slow(pace) || stiffness_min_1_s2_ <= 0.0; }
+
   LinearMotion motion_;
   double stiffness_min_1_s2_;
   double rate_rad_s_;

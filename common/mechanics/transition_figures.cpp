@@ -89,10 +89,15 @@ class Window {
     return magnitude(figure);
   }
 
+  [[nodiscard]] static double slack_of(std::size_t figure) {
+    if (figure == kWinchAcceleration) return kWinchAccelerationSlack;
+    const bool accelerates = figure == kAcceleration || figure == kThrust || figure == kBank;
+    return accelerates ? kAccelerationSlack : kTransitionSlack;
+  }
+
   [[nodiscard]] bool tight(const Enclosure& enclosure) const {
     for (std::size_t i = 0; i < kFigures; ++i) {
-      const bool accelerates = i == kAcceleration || i == kWinchAcceleration || i == kThrust || i == kBank;
-      const double slack = (accelerates ? kAccelerationSlack : kTransitionSlack) * scale(i);
+      const double slack = slack_of(i) * scale(i);
       if (!(enclosure[i].lower() >= inner_[i].min - slack && enclosure[i].upper() <= inner_[i].max + slack))
         return false;
     }

@@ -5,6 +5,7 @@
 
 #include "common/base/angle.hpp"
 #include "common/base/text.hpp"
+#include "common/mechanics/skew.hpp"
 #include "coordinator/core/leading.hpp"
 
 namespace gyre::coordinator {
@@ -210,15 +211,29 @@ void Leading::schedule(LocalTime now) {
   agreement_->set_proposal(std::move(next), start);
 }
 
+/// The layers of every carrier whose plans are known, in seconds since a moment of plan time.
+std::vector<std::vector<mechanics::TimedLayer>> Leading::stacks_of(const Course& course, PlanTime origin) const {
+  std::vector<std::vector<mechanics::TimedLayer>> stacks;
+  for (const CarrierId id : swarm_.carriers) {
+    const auto slice = [&](const PlanNumber& number) { return plans_.slice(number, id); };
+    auto stack = protocol::layers(course, origin, slice);
+    if (!stack.empty()) stacks.push_back(std::move(stack));
+  }
+  return stacks;
+}
+
+/// Of the carriers whose plans are known; its transitions included.
+Duration Leading::skew_budget(const Course& course) const {
+  constexpr double kForever_s = 1e6;
+  const double budget_s =
+      mechanics::skew_budget_s(stacks_of(course, course.base.epoch), job_.plan.load.mass_kg * job_.plan.gravity_m_s2);
+  return budget_s < kForever_s ? from_seconds(budget_s) : Duration::zero();
+}
+
 void Leading::pursue(LocalTime now, Outputs& out) {
   if (agreement_->needs_rehearsal()) {
     const Course& proposal = agreement_->proposal();
-    std::vector<std::vector<mechanics::TimedLayer>> stacks;
-    for (const CarrierId id : swarm_.carriers) {
-      const auto slice = [&](const PlanNumber& number) { return plans_.slice(number, id); };
-      auto stack = protocol::layers(proposal, proposal.transitions.back().start, slice);
-      if (!stack.empty()) stacks.push_back(std::move(stack));
-    }
+    std::vector<std::vector<mechanics::TimedLayer>> stacks = stacks_of(proposal, proposal.transitions.back().start);
     if (stacks.empty()) return give_up(now, "no agent has told yet what it flies", out);
     agreement_->rehearse(Rehearsal(std::move(stacks), job_.plan));
   }

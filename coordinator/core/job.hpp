@@ -20,11 +20,11 @@ namespace gyre::coordinator {
 struct Job {
   std::string name;
   mechanics::Plan plan;
-  std::optional<mechanics::Swings> swings;  ///< from its certificate; absent: not judged
   /// How long a change takes, of plan or of pace; absent: as short as it keeps all limits, but no shorter than
   /// shortest_transition.
   std::optional<Duration> transition;
   protocol::Silence silence;
+  std::optional<mechanics::Swings> swings = {};  ///< of its certificate; absent: not judged
 };
 
 struct CoordinatorOptions {

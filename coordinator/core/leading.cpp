@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "common/base/text.hpp"
-#include "common/mechanics/skew.hpp"
 #include "common/protocol/follow.hpp"
 #include "common/protocol/term.hpp"
 #include "coordinator/core/load_obstacle.hpp"
@@ -373,18 +372,6 @@ void Leading::offer_plans(Outputs& out) {
     if (carriers.size() > 1) offer.neighbour = plans_.told(carriers[(i + 1) % carriers.size()], numbers);
     out.offers.push_back(std::move(offer));
   }
-}
-
-/// Of the carriers whose plans are known; its transitions included.
-Duration Leading::skew_budget(const protocol::Course& course) const {
-  std::vector<std::vector<mechanics::TimedLayer>> stacks;
-  for (const CarrierId id : swarm_.carriers) {
-    const auto slice = [&](const PlanNumber& number) { return plans_.slice(number, id); };
-    stacks.push_back(protocol::layers(course, course.base.epoch, slice));
-  }
-  constexpr double kForever_s = 1e6;
-  const double budget_s = mechanics::skew_budget_s(stacks, job_.plan.load.mass_kg * job_.plan.gravity_m_s2);
-  return budget_s < kForever_s ? from_seconds(budget_s) : Duration::zero();
 }
 
 std::optional<std::string> Leading::complaint(LocalTime now) const {

@@ -73,7 +73,6 @@ class Leading {
   [[nodiscard]] bool is_unbegun(SwarmTime now) const;
   /// Until a retune is agreed, and all were seen to follow, the one before it.
   [[nodiscard]] const Job& mission_in_force() const { return before_retune_ ? before_retune_->job : job_; }
-  [[nodiscard]] Duration skew_budget(const protocol::Course& course) const;
   [[nodiscard]] protocol::CoordinatorStatus status(LocalTime now) const;
   void offer_plans(Outputs& out);
 
@@ -82,6 +81,9 @@ class Leading {
   void end_lease(SwarmTime now, Outputs& out);
   void stop_with(LocalTime now, const PathJudge::Stuck& stuck, Outputs& out);
   void drive(LocalTime now, Outputs& out);
+  [[nodiscard]] std::vector<std::vector<mechanics::TimedLayer>> stacks_of(const protocol::Course& course,
+                                                                          PlanTime origin) const;
+  [[nodiscard]] Duration skew_budget(const protocol::Course& course) const;
   void begin(LocalTime now, const Intent& intent);
   void schedule(LocalTime now);
   void pursue(LocalTime now, Outputs& out);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 #include <vector>
 
 #include "common/base/angle.hpp"
@@ -71,19 +70,9 @@ std::vector<Row> rows(const Limits& limits, const Certificate& certificate) {
 
 /// Words filled into lines, every line after the first behind `indent`.
 std::string filled(const std::string& words, const std::string& indent) {
-  std::istringstream stream(words);
   std::string out;
-  std::size_t column = indent.size();
-  for (std::string word; stream >> word;) {
-    if (!out.empty() && column + 1 + word.size() > kTextWidth) {
-      out += "\n" + indent;
-      column = indent.size();
-    } else if (!out.empty()) {
-      out += " ";
-      ++column;
-    }
-    out += word;
-    column += word.size();
+  for (const std::string& line : wrapped(words, kTextWidth - indent.size())) {
+    out += (out.empty() ? "" : "\n" + indent) + line;
   }
   return out;
 }
@@ -119,7 +108,7 @@ std::string growth_text(double growth_1_s) {
   if (growth_1_s > mechanics::kNeutralGrowth_1_s) return "one grows by " + number_text(growth_1_s) + " 1/s";
   if (growth_1_s < -mechanics::kNeutralGrowth_1_s)
     return "all die out, the slowest by " + number_text(-growth_1_s) + " 1/s";
-  return "none grows, and one goes on for hours";
+  return "none grows";
 }
 
 std::string swing_line(const std::optional<mechanics::Swings>& swings) {

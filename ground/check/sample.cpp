@@ -1,12 +1,12 @@
 #include "ground/check/sample.hpp"
 
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
 
 #include "common/mechanics/certificate.hpp"
 #include "common/program/mission_argument.hpp"
+#include "ground/bounded_motion.hpp"
 #include "ground/check/motion_csv.hpp"
 
 namespace gyre::ground {
@@ -16,14 +16,6 @@ struct SampleOptions {
   std::string mission;
   int count = 100;
 };
-
-/// A refused motion can be looked at, as far as there is one.
-bool has_motion(const mechanics::Certificate& certificate) {
-  for (const mechanics::CarrierFigures& carrier : certificate.carriers) {
-    if (!std::isfinite(carrier.length_m.max) || !std::isfinite(carrier.speed_m_s.max)) return false;
-  }
-  return true;
-}
 
 int sample(const SampleOptions& options) {
   const auto mission = program::read_mission(options.mission);
@@ -36,11 +28,8 @@ int sample(const SampleOptions& options) {
   if (!certificate.admissible()) {
     std::fprintf(stderr, "note: %s is refused; `gyre check` says why\n", options.mission.c_str());
   }
-  if (!has_motion(certificate)) {
-    std::fprintf(stderr, "%s: there is no bounded motion to sample:\n", options.mission.c_str());
-    for (const mechanics::Reason& reason : certificate.reasons) {
-      std::fprintf(stderr, "  %s: %s\n", mechanics::name(reason.rule), reason.text.c_str());
-    }
+  if (!has_bounded_motion(certificate)) {
+    std::fputs(unbounded_text(options.mission, certificate).c_str(), stderr);
     return program::kFailed;
   }
   const bool written = std::fputs(motion_csv(plan, options.count).c_str(), stdout) >= 0 && std::fflush(stdout) == 0;

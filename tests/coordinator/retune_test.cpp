@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/mechanics/orbit_figures.hpp"
+#include "common/mechanics/skew.hpp"
 #include "tests/coordinator/flying.hpp"
 
 namespace gyre::coordinator {
@@ -88,6 +89,25 @@ TEST(Retune, ThatIsGivenUpLeavesTheMission) {
   EXPECT_EQ(swarm.status->mission, "faster");
   EXPECT_NE(swarm.status->plan, plan);
   EXPECT_EQ(swarm.status->plan, swarm.course().base.number);
+}
+
+TEST(Retune, AsksMoreOfTheClocksThanEitherPlanDoes) {
+  Flying swarm;
+  const auto budget_s = [](const mechanics::Plan& plan) {
+    return mechanics::skew_budget_s(mechanics::slices(plan), plan.load.mass_kg * plan.gravity_m_s2);
+  };
+  const double least_s = std::min(budget_s(job().plan), budget_s(faster().plan));
+  const auto uncertain_by = [&swarm](double uncertainty_s) {
+    swarm.change_status = [=](protocol::AgentStatus& s) { s.clock_uncertainty = from_seconds(uncertainty_s); };
+    swarm.fly(seconds(1));
+  };
+  uncertain_by(0.49 * least_s);  // two of them are within the budget of either
+  EXPECT_EQ(swarm.coordinator().complaint(swarm.now).value_or("none"), "none");
+  const std::string answer = swarm.retune(faster());
+  EXPECT_TRUE(says(answer, "given up: the clocks may disagree by")) << answer;
+  EXPECT_EQ(swarm.status->mission, "polygon");
+  uncertain_by(0.01 * least_s);
+  EXPECT_TRUE(says(swarm.retune(faster()), "done"));
 }
 
 TEST(Retune, ThatAnAgentRefusesIsAnsweredWithItsWords) {

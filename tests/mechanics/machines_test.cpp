@@ -154,7 +154,7 @@ TEST(Machines, a_change_of_the_papers_motion_is_tight_in_all_of_them) {
     EXPECT_NEAR(f.paid_out_m.max, paid_out.max, kTransitionSlack * paid_out.max + kMissed);
     EXPECT_NEAR(f.paid_out_rate_max_m_s(), rate.max, kTransitionSlack * std::max(rate.max, speed.max) + kMissed);
     EXPECT_NEAR(f.winch_acceleration_max_m_s2, acceleration.max,
-                kAccelerationSlack * std::max(acceleration.max, carrier.max) + kMissed);
+                kWinchAccelerationSlack * std::max(acceleration.max, carrier.max) + kMissed);
     EXPECT_NEAR(f.thrust_max_n.value(), thrust.max, kAccelerationSlack * thrust.max + kMissed);
     EXPECT_NEAR(f.bank_max_rad.value(), bank.max, kAccelerationSlack + kMissed);
   }

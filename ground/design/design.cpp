@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 
@@ -11,6 +10,7 @@
 #include "common/design/design.hpp"
 #include "common/mission/requirements.hpp"
 #include "ground/design/core/design_text.hpp"
+#include "ground/whole_file.hpp"
 
 namespace gyre::ground {
 namespace {
@@ -51,31 +51,16 @@ class Watch {
   bool going_ = true;
 };
 
-/// Beside its name and then in its place, so that nobody reads half of it; into what is no file, such as a device, as
-/// is.
-bool write_file(const std::string& path, const std::string& content) {
-  namespace fs = std::filesystem;
-  std::error_code failure;
-  const bool in_place = fs::exists(path, failure) && !fs::is_regular_file(path, failure);
-  const std::string target = in_place ? path : path + ".part";
-  std::ofstream file(target, std::ios::binary);
-  file << content;
-  file.close();
-  bool written = !file.fail();
-  if (written && !in_place) {
-    fs::rename(target, path, failure);
-    written = !failure;
-  }
-  if (written) return true;
-  std::fprintf(stderr, "%s: cannot be written; give a file in a folder that is there: -o MISSION\n", path.c_str());
-  if (!in_place) fs::remove(target, failure);
-  return false;
-}
-
 int design(const DesignOptions& options) {
   const Result<mission::Requirements> read = mission::read_requirements_file(options.requirements);
   if (!read) {
     std::fprintf(stderr, "%s\n", read.error().text.c_str());
+    return program::kBadUsage;
+  }
+  std::error_code differ;
+  if (std::filesystem::equivalent(options.requirements, options.output, differ)) {
+    std::fprintf(stderr, "%s: are the requirements themselves; name another file for the mission\n",
+                 options.output.c_str());
     return program::kBadUsage;
   }
   block_interrupts();
@@ -90,7 +75,11 @@ int design(const DesignOptions& options) {
   if (!found.plan) return program::kFailed;
   const std::string source = std::filesystem::path(options.requirements).filename().string();
   const std::string file = mission_file(requirements, found, source, options.seed);
-  if (!to_stdout) return write_file(options.output, file) ? program::kGood : program::kFailed;
+  if (!to_stdout) {
+    const auto problem = write_whole(options.output, file);
+    if (problem) std::fprintf(stderr, "%s\n", problem->text.c_str());
+    return problem ? program::kFailed : program::kGood;
+  }
   return std::fputs(file.c_str(), stdout) >= 0 && std::fflush(stdout) == 0 ? program::kGood : program::kFailed;
 }
 

@@ -34,7 +34,7 @@ TEST_F(DesignCommand, WritesAMissionThatIsAdmissible) {
   const Answer checked = gyre("check '" + mission + "'");
   EXPECT_EQ(checked.exit_code, 0) << checked.output << checked.complaint;
   EXPECT_EQ(checked.output.rfind("wing-trio: admissible", 0), 0u) << checked.output;
-  EXPECT_FALSE(std::filesystem::exists(mission + ".part"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1) << "and nothing beside it";
 }
 
 TEST_F(DesignCommand, WithoutAFileTheMissionGoesToStandardOutputAndTheReportBesideIt) {
@@ -48,8 +48,7 @@ TEST_F(DesignCommand, WithoutAFileTheMissionGoesToStandardOutputAndTheReportBesi
 
 TEST_F(DesignCommand, TheImpossibleIsNamedAndIsOne) {
   std::ostringstream text;
-  text << std::ifstream(std::string(GYRE_SOURCE_DIR) + "/deploy/missions/wing-trio.requirements.textproto")
-              .rdbuf();
+  text << std::ifstream(std::string(GYRE_SOURCE_DIR) + "/deploy/missions/wing-trio.requirements.textproto").rdbuf();
   std::string wings = text.str();
   const std::string limit = "length_max_m: 80";
   ASSERT_NE(wings.find(limit), std::string::npos);
@@ -66,6 +65,7 @@ TEST_F(DesignCommand, WhatIsNoRequirementIsTwo) {
   EXPECT_EQ(gyre("design nowhere.textproto").exit_code, 2);
   EXPECT_EQ(gyre("design").exit_code, 2);
   EXPECT_EQ(gyre("design " + kWings + " --seconds 0").exit_code, 2);
+  EXPECT_EQ(gyre("design " + kWings + " -o " + kWings).exit_code, 2) << "the mission would take their place";
 }
 
 TEST_F(DesignCommand, AFileThatCannotBeWrittenIsNamed) {

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/design/attachments.hpp"
 #include "common/design/conflict.hpp"
 #include "common/design/prices.hpp"
 #include "common/design/workshop.hpp"
+#include "common/mechanics/judgement.hpp"
 
 namespace gyre::design {
 namespace {
+
+using mechanics::Plan;
 
 constexpr double kPulls[] = {0.0, 0.65, 1.3, 2.2, 3.5};
 constexpr std::size_t kFamilies = 5;  // that are improved
@@ -143,6 +147,54 @@ class Desk {
   std::optional<Candidate> best_;
 };
 
+/// What keeps any motion from being one, whatever numbers are chosen: too few carriers, edges that do not turn.
+std::vector<mechanics::Reason> obstructions(const Workshop& workshop) {
+  const std::vector<Order> orders = workshop.orders();
+  const Order order = orders.empty() ? order_of(workshop.requirements().given) : orders.front();
+  const Plan plan = workshop.start(order, kPulls[1]).plan;
+  std::vector<mechanics::Reason> out;
+  mechanics::judge_equilibrium(plan, out);
+  mechanics::judge_construction(plan, mechanics::slices(plan), out);
+  return out;
+}
+
+/// With attachments that are given.
+Design designed(const Requirements& requirements, std::uint64_t seed, const KeepGoing& keep_going) {
+  Workshop workshop(requirements, seed, keep_going);
+  Design out;
+  out.certificate.reasons = obstructions(workshop);
+  if (!out.certificate.reasons.empty()) return out;
+  Desk desk(workshop, out);
+  std::vector<Candidate> found = candidates(workshop, seed);
+  const std::optional<Candidate> nearest = found.empty() ? std::nullopt : std::optional<Candidate>(found.front());
+  for (const Care& care : kCares) {
+    if (care.finer > 1) found = mended(workshop, std::move(found), care);
+    found = desk.judge(found);
+    if (found.empty() || (desk.best() && workshop.stopped())) break;
+  }
+  if (desk.best()) out.prices = prices(workshop, *desk.best());
+  if (!out.plan && nearest && !nearest->meets()) out.conflict = conflict(workshop, *nearest);
+  out.interrupted = workshop.stopped();
+  return out;
+}
+
+/// The attachments whose families are best.
+Requirements best_attached(const Requirements& requirements, std::uint64_t seed, const KeepGoing& keep_going) {
+  std::vector<Requirements> all = attached(requirements);
+  if (all.size() == 1) return std::move(all.front());
+  std::size_t best = 0;
+  std::optional<Candidate> found;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    Workshop workshop(all[k], seed, keep_going);
+    const std::vector<Candidate> simple = families(workshop);
+    if (simple.empty() || (found && !before(simple.front(), *found))) continue;
+    best = k;
+    found = simple.front();
+    if (workshop.stopped()) break;
+  }
+  return std::move(all[best]);
+}
+
 }  // namespace
 
 const char* name(Objective objective) {
@@ -174,20 +226,7 @@ const char* unit(Objective objective) {
 }
 
 Design design(const Requirements& requirements, std::uint64_t seed, const KeepGoing& keep_going) {
-  Workshop workshop(requirements, seed, keep_going);
-  Design out;
-  Desk desk(workshop, out);
-  std::vector<Candidate> found = candidates(workshop, seed);
-  const std::optional<Candidate> nearest = found.empty() ? std::nullopt : std::optional<Candidate>(found.front());
-  for (const Care& care : kCares) {
-    if (care.finer > 1) found = mended(workshop, std::move(found), care);
-    found = desk.judge(found);
-    if (found.empty() || (desk.best() && workshop.stopped())) break;
-  }
-  if (desk.best()) out.prices = prices(workshop, *desk.best());
-  if (!out.plan && nearest && !nearest->meets()) out.conflict = conflict(workshop, *nearest);
-  out.interrupted = workshop.stopped();
-  return out;
+  return designed(best_attached(requirements, seed, keep_going), seed, keep_going);
 }
 
 }  // namespace gyre::design

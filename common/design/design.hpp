@@ -41,8 +41,9 @@ struct Price {
 
 struct Design {
   std::optional<mechanics::Plan> plan;  ///< admissible; absent: none was found
-  mechanics::Certificate certificate;   ///< of the plan, or of the best that was refused
-  double figure = 0.0;                  ///< of the objective: effort, m/s, W, m
+  /// Of the plan, or of the best that was refused; without carriers: reasons why there can be none.
+  mechanics::Certificate certificate;
+  double figure = 0.0;  ///< of the objective: effort, m/s, W, m
   std::vector<Price> prices;
   /// Without a plan: the fewest demands found that cannot be met together, as "speed_min_m_s 12 m/s".
   std::vector<std::string> conflict;

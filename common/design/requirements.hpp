@@ -48,6 +48,7 @@ struct OpenEdge {
 };
 
 struct Open {
+  bool attachments = false;  ///< of all carriers, on the load's shape; then the order is open, too
   bool rate = false;
   bool order = false;           ///< of the cycle; then its edges do not count, and all of theirs is open
   std::vector<OpenLaw> laws;    ///< of the plan's carriers

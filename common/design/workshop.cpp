@@ -91,7 +91,7 @@ void Workshop::note(const Candidate& candidate) {
 
 Candidate Workshop::family(const Order& order, double pull) {
   Candidate out;
-  out.start = start_of(requirements_, order, scales_, bounds_, pull);
+  out.start = start(order, pull);
   out.unknowns = family_of(out.start.plan, out.start.open, bounds_);
   out.point = meet(search_of(out, "orders of the cycle", kFewSamples), out.unknowns.start, kHurry);
   return out;

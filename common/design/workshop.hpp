@@ -54,6 +54,10 @@ class Workshop {
   [[nodiscard]] bool stopped() const { return stopped_; }
 
   [[nodiscard]] std::vector<Order> orders() const { return orders_of(requirements_, seed_); }
+  /// A closed form in that order.
+  [[nodiscard]] Start start(const Order& order, double pull) const {
+    return start_of(requirements_, order, scales_, bounds_, pull);
+  }
   /// The family of a closed form, met in a hurry.
   [[nodiscard]] Candidate family(const Order& order, double pull);
   /// All that is open, from a family or another whole, met and improved; the second one from `shaken` away of it, by so

@@ -155,7 +155,7 @@ mechanics::Winch read_winch(const Located& winch) {
 }
 
 std::vector<mechanics::Carrier> read_carriers(const std::vector<Located>& nodes, const mechanics::Load& load,
-                                              const Reading& reading, std::vector<design::OpenLaw>& open) {
+                                              const Reading& reading, design::Open& open) {
   std::vector<mechanics::Carrier> out;
   std::set<CarrierId> seen;
   for (const Located& node : nodes) {
@@ -165,12 +165,14 @@ std::vector<mechanics::Carrier> read_carriers(const std::vector<Located>& nodes,
       node.complain("id",
                     "is " + std::to_string(carrier.id) + ", which another carrier has; give every carrier its own id");
     }
-    (void)node.required_child("attachment_m", "give attachment_m { x: .. y: .. z: .. } in the body frame");
+    if (!open.attachments)
+      (void)node.required_child("attachment_m", "give attachment_m { x: .. y: .. z: .. } in the body frame");
     carrier.attachment_b_m = node.vector("attachment_m", kPlaceM);
-    if (!load.hull_b_m.empty() && !mechanics::LoadCone::seen_from(carrier.attachment_b_m, load.hull_b_m)) {
+    if (!open.attachments && !load.hull_b_m.empty() &&
+        !mechanics::LoadCone::seen_from(carrier.attachment_b_m, load.hull_b_m)) {
       node.complain("attachment_m", "is inside the load's shape; give a place on it, or a smaller shape");
     }
-    carrier.law = read_law(node, reading, open.emplace_back());
+    carrier.law = read_law(node, reading, open.laws.emplace_back());
     carrier.radius_m = node.number("radius_m", kLengthM, 0.0);
     carrier.vehicle = read_vehicle(node.child("vehicle"));
     out.push_back(std::move(carrier));
@@ -252,11 +254,15 @@ mechanics::Plan read_plan(const Located& root, design::Open* gaps) {
     root.complain("carrier", "is missing; a mission has at least one carrier { id: .. attachment_m { .. } .. }");
     return plan;
   }
+  const std::vector<Located> nodes = root.children("carrier");
+  open.attachments = may_be_open && std::none_of(nodes.begin(), nodes.end(),
+                                                 [](const Located& node) { return node.has("attachment_m"); });
   const bool rate_known = cycle.sound("rate_rad_s", kRate);
-  plan.carriers = read_carriers(root.children("carrier"), plan.load,
-                                {may_be_open, rate_known ? plan.cycle.rate_rad_s : kUnknownRate}, open.laws);
+  plan.carriers =
+      read_carriers(nodes, plan.load, {may_be_open, rate_known ? plan.cycle.rate_rad_s : kUnknownRate}, open);
   const std::vector<Located> edges = cycle.children("edge");
   open.order = may_be_open && edges.empty();
+  if (open.attachments) judge_open_attachments(root, plan.load, edges);
   if (!root.has("cycle") || open.order) return plan;
   plan.cycle.edges = read_edges(edges, may_be_open, open.edges);
   judge_cycle(plan, {cycle, edges});
@@ -327,20 +333,6 @@ Mission read_mission(const pb::Mission& message, const Located& root, design::Op
   return mission;
 }
 
-design::Objective objective_of(pb::Want::Objective objective) {
-  switch (objective) {
-    case pb::Want::LEAST_EVERYTHING:
-      break;
-    case pb::Want::GREATEST_SPEED:
-      return design::Objective::kGreatestSpeed;
-    case pb::Want::LEAST_WINCH_WORK:
-      return design::Objective::kLeastWinchWork;
-    case pb::Want::GREATEST_CLEARANCE:
-      return design::Objective::kGreatestClearance;
-  }
-  return design::Objective::kLeastEverything;
-}
-
 /// What no parser needs to look at.
 const char* unreadable(const std::string& text) {
   if (text.size() > kMaxMissionBytes)
@@ -403,8 +395,7 @@ Result<Requirements> parse_requirements(const std::string& text, const std::stri
     const Located want = root.required_child(
         "want", "requirements have want { speed_min_m_s: .. }; what has all its numbers is a mission: gyre check");
     if (!message.has_want()) return out;
-    out.want = read_want(want, out.mission.plan);
-    out.want.objective = objective_of(message.want().objective());
+    out.want = read_want(message.want(), want, out.mission.plan);
     judge_want(want, out.want, out.open, out.mission.plan);
     return out;
   });

@@ -7,6 +7,22 @@
 namespace gyre::mission {
 namespace {
 
+namespace pb = ::gyre::mission::schema;
+
+design::Objective objective_of(pb::Want::Objective objective) {
+  switch (objective) {
+    case pb::Want::LEAST_EVERYTHING:
+      break;
+    case pb::Want::GREATEST_SPEED:
+      return design::Objective::kGreatestSpeed;
+    case pb::Want::LEAST_WINCH_WORK:
+      return design::Objective::kLeastWinchWork;
+    case pb::Want::GREATEST_CLEARANCE:
+      return design::Objective::kGreatestClearance;
+  }
+  return design::Objective::kLeastEverything;
+}
+
 /// A wish for at least so much: it becomes the limit, unless that is stricter.
 void want_at_least(const Located& want, const char* field, const Span& span, std::optional<double>& limit) {
   const std::optional<double> wish = want.optional_number(field, span);
@@ -23,8 +39,9 @@ bool bounded_height(const design::Want& want, const mechanics::Plan& plan) {
 
 }  // namespace
 
-design::Want read_want(const Located& want, mechanics::Plan& plan) {
+design::Want read_want(const pb::Want& message, const Located& want, mechanics::Plan& plan) {
   design::Want out;
+  out.objective = objective_of(message.objective());
   want_at_least(want, "speed_min_m_s", kSpeed, plan.limits.speed_min_m_s);
   want_at_least(want, "clearance_min_m", kLengthM, plan.limits.clearance_min_m);
   out.amplitude_max_n = want.optional_number("amplitude_max_n", kPositiveForceN);
@@ -62,6 +79,15 @@ void judge_want(const Located& place, const design::Want& want, const design::Op
     place.complain("rate_max_rad_s", "is " + show(*want.rate_max_rad_s) + ", below cycle.rate_rad_s, " +
                                          show(plan.cycle.rate_rad_s) + "; leave one of them out");
   }
+}
+
+void judge_open_attachments(const Located& root, const mechanics::Load& load, const std::vector<Located>& edges) {
+  if (load.hull_b_m.empty()) {
+    root.child("load").complain("shape",
+                                "is missing, and so are the attachments; give the shape that they are to be on, "
+                                "or every carrier's attachment_m");
+  }
+  if (!edges.empty()) edges.front().complain("has no direction without attachments; leave the edges out, or give them");
 }
 
 }  // namespace gyre::mission

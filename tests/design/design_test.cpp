@@ -14,6 +14,12 @@ using test::slowest_m_s;
 using test::winch_rate_m_s;
 using test::wings;
 
+bool obstructed_by(const Design& design, mechanics::Rule rule) {
+  const std::vector<mechanics::Reason>& reasons = design.certificate.reasons;
+  return !design.plan && design.certificate.carriers.empty() &&
+         std::any_of(reasons.begin(), reasons.end(), [rule](const mechanics::Reason& r) { return r.rule == rule; });
+}
+
 /// The paper's load, altitudes, order and rate; amplitudes as great as the paper's.
 Requirements papers() {
   Requirements out;
@@ -97,6 +103,40 @@ TEST(Design, WhatVehiclesAndWinchesCanDoIsKeptAndCosts) {
   }
 }
 
+TEST(Design, ChoosesAttachmentsOnTheLoadsUpperFace) {
+  Requirements asked = polygon(4, 0.5, 0.05);
+  asked.given.load.hull_b_m = mechanics::box_hull({0.6, 0.4, 0.2}, {0.1, 0.0, 0.0});
+  for (mechanics::Carrier& carrier : asked.given.carriers) carrier.attachment_b_m.setZero();
+  asked.open.attachments = true;
+  const Design design = designed(asked);
+  ASSERT_TRUE(design.plan);
+  EXPECT_TRUE(design.certificate.admissible());
+  for (const mechanics::Carrier& carrier : design.plan->carriers) {
+    EXPECT_DOUBLE_EQ(carrier.attachment_b_m.z(), 0.2);
+    EXPECT_LE(std::abs(carrier.attachment_b_m.x() - 0.1), 0.6);
+    EXPECT_LE(std::abs(carrier.attachment_b_m.y()), 0.4);
+  }
+}
+
+TEST(Design, OfTwoRowsOfAttachmentsFindsAnOrderThatLetsEveryCarrierTurn) {
+  Requirements asked = polygon(6, 0.8, 0.3);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double along = 0.6 * (static_cast<double>(i % 3) - 1.0);
+    asked.given.carriers[i].attachment_b_m = {along, i < 3 ? -0.3 : 0.3, 0.2};
+  }
+  const Design design = designed(asked);
+  ASSERT_TRUE(design.plan);
+  EXPECT_TRUE(design.certificate.admissible());
+  EXPECT_GE(design.certificate.clearance->min_m, 0.3);
+
+  asked.open.order = false;  // around the load, the middle ones of both rows move to and fro only
+  const CarrierId around[] = {1, 2, 3, 6, 5, 4};
+  for (std::size_t j = 0; j < 6; ++j)
+    asked.given.cycle.edges.push_back({around[j], around[(j + 1) % 6], 0.0, 0.0, 0.0});
+  asked.open.edges.assign(6, {true, true, true});
+  EXPECT_TRUE(obstructed_by(designed(asked), mechanics::Rule::kRank));
+}
+
 TEST(Design, OfTwoCarriersIsTheConstructionPulledApart) {
   Requirements asked = polygon(2, 0.3, 0.5);
   asked.given.limits.length_max_m = 5.0;
@@ -107,8 +147,7 @@ TEST(Design, OfTwoCarriersIsTheConstructionPulledApart) {
 }
 
 TEST(Design, OfOneCarrierIsImpossible) {
-  const Design design = designed(polygon(1, 0.3, 0.5));
-  EXPECT_FALSE(design.plan);
+  EXPECT_TRUE(obstructed_by(designed(polygon(1, 0.3, 0.5)), mechanics::Rule::kOneCarrierImpossibility));
 }
 
 TEST(Design, IsTheSameForTheSameSeed) {

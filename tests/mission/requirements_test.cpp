@@ -56,6 +56,19 @@ TEST(Requirements, WhatIsLeftOutIsOpenAndWhatIsThereIsGiven) {
   EXPECT_TRUE(!found.open.edges[1].offset && !found.open.edges[1].phase && found.open.edges[1].amplitude);
 }
 
+TEST(Requirements, AttachmentsAreLeftOutByAllOrByNone) {
+  const std::string carriers = "carrier { id: 1 } carrier { id: 2 } carrier { id: 3 }";
+  const std::string load = "load { mass_kg: 6 inertia_kg_m2 { x: 1 y: 1 z: 1 }";
+  const std::string rest = " want { speed_min_m_s: 2 }";
+  EXPECT_TRUE(read(load + " shape { box { x_m: 1 y_m: 1 z_m: 1 } } }" + carriers + rest).open.attachments);
+  EXPECT_FALSE(read(kRequirements).open.attachments);
+  EXPECT_NE(complaints_about(load + " }" + carriers + rest).find("load.shape: is missing"), std::string::npos);
+  const std::string some = "carrier { id: 1 attachment_m { x: 1 } } carrier { id: 2 } carrier { id: 3 }";
+  const std::string answer = complaints_about(load + " }" + some + rest);
+  EXPECT_NE(answer.find("carrier[1].attachment_m"), std::string::npos) << answer;
+  EXPECT_NE(answer.find("carrier[2].attachment_m"), std::string::npos) << answer;
+}
+
 TEST(Requirements, WithoutACycleItsRateAndOrderAreOpen) {
   const mission::Requirements found = read(kRequirements);
   EXPECT_TRUE(found.open.rate);

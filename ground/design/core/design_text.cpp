@@ -42,7 +42,9 @@ std::string impossible_text(const std::string& name, const design::Design& desig
     return out + "Without any one of them the others can be met: relax one.\n";
   }
   if (!design.certificate.reasons.empty()) {
-    std::string out = name + ": nothing was found that the certificate admits; the best was refused:\n";
+    std::string out = name + (design.certificate.carriers.empty()
+                                  ? ": IMPOSSIBLE, whatever is chosen:\n"
+                                  : ": nothing was found that the certificate admits; the best was refused:\n");
     for (const mechanics::Reason& reason : design.certificate.reasons)
       out += std::string("  - ") + mechanics::name(reason.rule) + ": " + reason.text + "\n";
     return out;

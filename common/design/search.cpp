@@ -11,7 +11,6 @@ namespace gyre::design {
 namespace {
 
 using Vector = Eigen::VectorXd;
-using Gradients = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr int kRounds = 12;
 // Of one round. A step costs rows times variables squared, so that what has many variables gets fewer of both.
@@ -226,10 +225,6 @@ bool going(const Search& search) {
 }
 
 }  // namespace
-
-Point look(const Search& search, const Vector& x) {
-  return Bench(search).look(x);
-}
 
 Point meet(const Search& search, const Vector& x, int rounds) {
   Bench bench(search);

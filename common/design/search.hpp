@@ -40,9 +40,6 @@ struct Search {
   std::function<bool()> keep_going;  ///< asked at every step
 };
 
-/// What x is worth.
-[[nodiscard]] Point look(const Search& search, const Eigen::VectorXd& x);
-
 /// Towards a point that meets all demands; as near to one as was found.
 [[nodiscard]] Point meet(const Search& search, const Eigen::VectorXd& x, int rounds = 10);
 

@@ -11,8 +11,9 @@
 //   t_b < t < t_b + T    x' = x'(t_b) (1 − w((t − t_b) / T))        slows down, along the last direction
 //   t_b + T <= t         x' = 0                                     stands, |x'(t_b)| T / 2 further on
 //
-// The silence is counted from when a setpoint was taken up, not from when it held: late is not silent. What is braked is
-// what was asked for, and one that lags was asked for a place ahead of it: it stands that much further on, and later.
+// The silence is counted from when a setpoint was taken up, not from when it held: late is not silent. What is braked
+// is what was asked for, and one that lags was asked for a place ahead of it: it stands that much further on, and
+// later.
 
 #include <limits>
 

@@ -60,7 +60,7 @@ TEST_P(Polygons, FlyAtConstantSpeed) {
   const std::size_t n = GetParam();
   // Of many carriers the families are enough: what is searched beyond them is no better by much.
   const Design design = gyre::design::design(polygon(n, 1.5, 0.5), 1, [n](const Progress& progress) {
-    return n <= 6 || progress.doing != "all that is open";
+    return n <= 4 || progress.doing != "all that is open";
   });
   ASSERT_TRUE(design.plan);
   EXPECT_TRUE(mechanics::certify(*design.plan).admissible());

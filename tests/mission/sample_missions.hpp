@@ -48,7 +48,7 @@ inline std::string replaced(std::string text, const std::string& what, const std
 /// Each with its requirements beside it.
 inline const std::vector<std::string> kDesignedMissions = {
     "duo",       "multirotor-trio", "multirotor-quartet", "multirotor-sextet", "multirotor-octet", "tilted-quartet",
-    "wing-trio", "wing-quartet",    "wing-sextet"};
+    "wing-trio", "wing-quartet",    "wing-quintet",       "wing-sextet"};
 
 inline const std::vector<std::string> kShippedMissions = [] {
   std::vector<std::string> all{

@@ -72,7 +72,8 @@ std::vector<Row> rows(const Limits& limits, const Certificate& certificate) {
 std::string filled(const std::string& words, const std::string& indent) {
   std::string out;
   for (const std::string& line : wrapped(words, kTextWidth - indent.size())) {
-    out += (out.empty() ? "" : "\n" + indent) + line;
+    if (!out.empty()) out.append("\n").append(indent);
+    out += line;
   }
   return out;
 }

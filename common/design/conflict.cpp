@@ -30,9 +30,9 @@ std::string words(const Demand& demand) {
 std::vector<std::string> conflict(Workshop& workshop, const Candidate& nearest) {
   const std::vector<Demand> all = workshop.demands();
   const std::vector<double> residuals = workshop.residuals(nearest);
+  const std::string doing = "what cannot be met together";
   const auto can_be_met = [&](const std::set<std::string>& names) {
     workshop.demand(only(all, names));
-    const std::string doing = "what cannot be met together";
     Candidate again = nearest;
     workshop.meet_demands(again, doing);
     const Order order = order_of(nearest.start.plan);
@@ -49,13 +49,15 @@ std::vector<std::string> conflict(Workshop& workshop, const Candidate& nearest) 
     every.insert(all[d].name);
     if (residuals[d] > nearest.point.worst - kNearWorst * std::max(1.0, nearest.point.worst)) names.insert(all[d].name);
   }
-  if (can_be_met(names)) names = every;
+  // What was interrupted has not shown that it cannot be met: then nothing is left out on its account.
+  if (can_be_met(names) || workshop.stopped()) names = every;
   const std::set<std::string> before = names;
   for (const std::string& name : before) {
-    if (!workshop.going("what cannot be met together")) break;
     std::set<std::string> without = names;
     without.erase(name);
-    if (!can_be_met(without)) names = without;
+    const bool met = can_be_met(without);
+    if (workshop.stopped()) break;
+    if (!met) names = without;
   }
   workshop.demand(all);
   std::vector<std::string> out;

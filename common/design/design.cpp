@@ -173,7 +173,8 @@ Design designed(const Requirements& requirements, std::uint64_t seed, const Keep
     if (found.empty() || (desk.best() && workshop.stopped())) break;
   }
   if (desk.best()) out.prices = prices(workshop, *desk.best());
-  if (!out.plan && nearest && !nearest->meets()) out.conflict = conflict(workshop, *nearest);
+  // What was not searched to its end says nothing of what is impossible.
+  if (!out.plan && nearest && !nearest->meets() && !workshop.stopped()) out.conflict = conflict(workshop, *nearest);
   out.interrupted = workshop.stopped();
   return out;
 }

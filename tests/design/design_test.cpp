@@ -195,6 +195,19 @@ TEST(Design, WithoutAnyOfAConflictTheRestCanBeMet) {
   EXPECT_TRUE(designed(asked).plan);
 }
 
+TEST(Design, AnInterruptedConflictLeavesNothingOutThatItHasNotTried) {
+  Requirements asked = wings();
+  asked.given.limits.acceleration_max_m_s2 = 2.0;
+  const Design whole = designed(asked);
+  ASSERT_FALSE(whole.conflict.empty());
+  const Design cut = gyre::design::design(
+      asked, 1, [](const Progress& progress) { return progress.doing != "what cannot be met together"; });
+  EXPECT_TRUE(cut.interrupted);
+  for (const std::string& demand : whole.conflict) {
+    EXPECT_EQ(std::count(cut.conflict.begin(), cut.conflict.end(), demand), 1) << demand;
+  }
+}
+
 TEST(Design, InterruptedGivesTheBestSoFar) {
   const Requirements asked = polygon(6, 1.5, 0.5);
   int steps = 0;
@@ -212,6 +225,7 @@ TEST(Design, InterruptedAtOnceGivesNothingAndEnds) {
   const Design design = gyre::design::design(wings(), 1, [](const Progress&) { return false; });
   EXPECT_TRUE(design.interrupted);
   EXPECT_FALSE(design.plan);
+  EXPECT_TRUE(design.conflict.empty()) << "it does not know";
 }
 
 }  // namespace

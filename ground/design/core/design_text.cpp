@@ -39,7 +39,8 @@ std::string impossible_text(const std::string& name, const design::Design& desig
   if (!design.conflict.empty()) {
     std::string out = name + ": IMPOSSIBLE, as far as the search sees; these cannot be met together:\n";
     for (const std::string& demand : design.conflict) out += "  - " + demand + "\n";
-    return out + "Without any one of them the others can be met: relax one.\n";
+    return out + (design.interrupted ? "It was interrupted: not all of these need be in each other's way.\n"
+                                     : "Without any one of them the others can be met: relax one.\n");
   }
   if (!design.certificate.reasons.empty()) {
     std::string out = name + (design.certificate.carriers.empty()

@@ -37,10 +37,13 @@ std::string prices_text(Objective objective, const design::Design& design) {
 
 std::string impossible_text(const std::string& name, const design::Design& design) {
   if (!design.conflict.empty()) {
-    std::string out = name + ": IMPOSSIBLE, as far as the search sees; these cannot be met together:\n";
+    const bool alone = design.conflict.size() == 1;
+    std::string out = name + ": IMPOSSIBLE, as far as the search sees; " +
+                      (alone ? "this cannot be met:\n" : "these cannot be met together:\n");
     for (const std::string& demand : design.conflict) out += "  - " + demand + "\n";
-    return out + (design.interrupted ? "It was interrupted: not all of these need be in each other's way.\n"
-                                     : "Without any one of them the others can be met: relax one.\n");
+    if (design.interrupted) return out + "It was interrupted: not all of these need be in each other's way.\n";
+    return out + (alone ? "Without it the others can be met: relax it.\n"
+                        : "Without any one of them the others can be met: relax one.\n");
   }
   if (!design.certificate.reasons.empty()) {
     std::string out = name + (design.certificate.carriers.empty()

@@ -188,24 +188,6 @@ RC_GTEST_PROP(Stuck, all_that_stand_still_at_one_plan_time_hold_the_load, ()) {
 
 // --------------------------------------------------------------------------------------------------------- stiffness
 
-/// The wrench of elastic cables on a load displaced by (translation, rotation), the carriers where they were.
-Vector6d elastic_wrench(const Plan& plan, const std::vector<CarrierSlice>& all, double t_s, const Vector6d& motion) {
-  const Eigen::Vector3d turn = motion.tail<3>();
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  if (turn.norm() > 0.0) rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
-  Vector6d sum = Vector6d::Zero();
-  for (const CarrierSlice& slice : all) {
-    const Reference r = evaluate(slice, t_s);
-    const Eigen::Vector3d arm = rotation * (slice.attachment_w_m - plan.load.position_w_m);
-    const Eigen::Vector3d cable = r.position_w_m.value - (plan.load.position_w_m + motion.head<3>() + arm);
-    const double tension = r.tension_n.value + plan.cable.stiffness_n_m * (cable.norm() - r.length_m.value);
-    const Eigen::Vector3d f = tension * cable.normalized();
-    sum.head<3>() += f;
-    sum.tail<3>() += arm.cross(f);
-  }
-  return sum;
-}
-
 RC_GTEST_PROP(Stiffness, it_is_the_derivative_of_the_wrench, ()) {
   const Plan plan = random_plan();
   const std::vector<CarrierSlice> all = slices(plan);
@@ -214,7 +196,9 @@ RC_GTEST_PROP(Stiffness, it_is_the_derivative_of_the_wrench, ()) {
   Matrix6d difference;
   constexpr double kStep = 1e-3;
   for (int i = 0; i < 6; ++i) {
-    const auto moved = [&](double by) { return elastic_wrench(plan, all, t_s, by * Vector6d::Unit(i)); };
+    const auto moved = [&](double by) {
+      return wrench_of_moving(plan, all, t_s, 0.0, by * Vector6d::Unit(i), Vector6d::Zero());
+    };
     difference.col(i) =
         (8.0 * (moved(kStep) - moved(-kStep)) - (moved(2.0 * kStep) - moved(-2.0 * kStep))) / (12.0 * kStep);
   }

@@ -211,6 +211,27 @@ Eigen::Matrix<double, 6, 1> wrench(const Plan& plan, const std::vector<Eigen::Ve
   return grasp_map(lever_arms(plan)) * stacked;
 }
 
+Vector6d wrench_of_moving(const Plan& plan, const std::vector<CarrierSlice>& all, double t_s, double pace,
+                          const Vector6d& moved, const Vector6d& velocity) {
+  const Eigen::Vector3d turn = moved.tail<3>();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  if (turn.norm() > 0.0) rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
+  Vector6d sum = Vector6d::Zero();
+  for (const CarrierSlice& slice : all) {
+    const Reference r = evaluate(slice, t_s);
+    const Eigen::Vector3d arm = rotation * (slice.attachment_w_m - plan.load.position_w_m);
+    const Eigen::Vector3d cable = r.position_w_m.value - (plan.load.position_w_m + moved.head<3>() + arm);
+    const Eigen::Vector3d arm_rate = velocity.head<3>() + velocity.tail<3>().cross(arm);
+    const double rate = cable.normalized().dot(pace * r.position_w_m.first - arm_rate) - pace * r.length_m.first;
+    const double tension = r.tension_n.value + plan.cable.stiffness_n_m * (cable.norm() - r.length_m.value) +
+                           plan.cable.damping_n_s_m * rate;
+    const Eigen::Vector3d f = tension * cable.normalized();
+    sum.head<3>() += f;
+    sum.tail<3>() += arm.cross(f);
+  }
+  return sum;
+}
+
 void sample(double begin_s, double end_s, int count, const std::function<void(double t_s)>& visit) {
   for (int i = 0; i <= count; ++i) visit(begin_s + (end_s - begin_s) * i / count);
 }

@@ -7,6 +7,7 @@
 
 #include "common/base/angle.hpp"
 #include "common/mechanics/carrier_slice.hpp"
+#include "common/mechanics/grasp.hpp"
 #include "common/mechanics/plan.hpp"
 #include "common/mechanics/reference.hpp"
 
@@ -45,7 +46,12 @@ struct RandomPlan {
 [[nodiscard]] std::size_t whole(std::size_t low, std::size_t high);
 
 /// The wrench that forces at the carriers' attachments exert on the load.
-[[nodiscard]] Eigen::Matrix<double, 6, 1> wrench(const Plan& plan, const std::vector<Eigen::Vector3d>& forces_w_n);
+[[nodiscard]] Vector6d wrench(const Plan& plan, const std::vector<Eigen::Vector3d>& forces_w_n);
+
+/// The wrench of elastic, damped cables on a load that has moved, and moves, by (translation, rotation), with carriers
+/// that pass their places at a pace.
+[[nodiscard]] Vector6d wrench_of_moving(const Plan& plan, const std::vector<CarrierSlice>& all, double t_s, double pace,
+                                        const Vector6d& moved, const Vector6d& velocity);
 
 /// Calls `visit` at `count` + 1 moments, evenly from begin to end, both included.
 void sample(double begin_s, double end_s, int count, const std::function<void(double t_s)>& visit);

@@ -133,7 +133,10 @@ Bounds bounds_of(const Requirements& requirements, const Scales& scales) {
     lowest = std::min(lowest, plan.load.position_w_m.z() + arm.z());
     highest = std::max(highest, plan.load.position_w_m.z() + arm.z());
   }
-  const double reach = plan.limits.length_max_m.value_or(kMostHeights * scales.length_m);
+  // Without a greatest length: more than enough for the sizes here, and for what is asked of height and clearance.
+  const double asked =
+      std::max(want.altitude_min_m.value_or(lowest) - lowest, plan.limits.clearance_min_m.value_or(0.0));
+  const double reach = plan.limits.length_max_m.value_or(std::max(kMostHeights * scales.length_m, 3.0 * asked));
   const double rate = scales.speed_m_s / scales.length_m;
   return {1e-3 * rate,
           want.rate_max_rad_s.value_or(1e3 * rate),

@@ -27,10 +27,11 @@ Demand relaxed(Demand demand) {
 std::vector<Price> prices(Workshop& workshop, const Candidate& candidate) {
   const std::vector<Demand> all = workshop.demands();
   const std::vector<double> residuals = workshop.residuals(candidate);
-  const std::optional<std::size_t> raised = workshop.raised();
+  const std::vector<std::size_t> raised = workshop.raised();
   std::set<std::string> reached;
   for (std::size_t d = 0; d < all.size(); ++d) {
-    if (all[d].origin == Origin::kAsked && d != raised && residuals[d] > -kReached) reached.insert(all[d].name);
+    if (all[d].origin == Origin::kAsked && std::count(raised.begin(), raised.end(), d) == 0 && residuals[d] > -kReached)
+      reached.insert(all[d].name);
   }
   const double figure = workshop.figure(candidate);
   std::vector<Price> out;

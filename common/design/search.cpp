@@ -25,6 +25,15 @@ constexpr double kEnough = 1e-4;  // of the cost, relative: not worth another ro
 
 enum class Goal { kMeet, kImprove, kRaise };
 
+/// S0, in which limits are raised: a size that makes steps of t like those of other variables.
+double raised_by(const Search& search) {
+  return search.demands[search.raised.front()].scale;
+}
+
+bool is_raised(const Search& search, std::size_t demand) {
+  return std::find(search.raised.begin(), search.raised.end(), demand) != search.raised.end();
+}
+
 /// One round: the rows that are looked at, and what NLopt is told of them.
 class Round {
  public:
@@ -107,11 +116,10 @@ class Round {
       if (self.goal_ == Goal::kMeet) {
         by_t = -1.0;
         result[k] -= at[own];
-      } else if (self.goal_ == Goal::kRaise && row.demand == *self.search_.raised) {
-        // r = (L − F) / S with L = t S in the limit's place; no margin: the limit is what is looked for.
-        const Demand& demand = self.search_.demands[row.demand];
-        by_t = 1.0;
-        result[k] += at[own] - demand.limit / demand.scale;
+      } else if (self.goal_ == Goal::kRaise && is_raised(self.search_, row.demand)) {
+        // r = (L + t S0 − F) / S; no margin: the limit is what is looked for.
+        by_t = raised_by(self.search_) / self.search_.demands[row.demand].scale;
+        result[k] += by_t * at[own];
       } else {
         result[k] += self.search_.margin;
       }
@@ -153,8 +161,8 @@ class Bench {
     judge_.choose_sides();
     const Judge::Findings findings = judge_.find(x, std::numeric_limits<double>::infinity());
     out.worst = findings.worst;
-    if (search_.raised) {
-      out.cost = -raised_figure(x);
+    if (!search_.raised.empty()) {
+      out.cost = -(search_.demands[search_.raised.front()].limit + raise(x));
     } else {
       Vector slope(x.size());
       out.cost = effort(search_.objective, motion_, search_.scales, search_.gravity_m_s2, slope);
@@ -176,11 +184,10 @@ class Bench {
         least_t = -4.0 * search_.margin - 0.01;
         most_t = std::max(1.0, 2.0 * findings.worst);
       } else {
-        const Demand& demand = search_.demands[*search_.raised];
-        start[x.size()] = raised_figure(x) / demand.scale;
-        least_t = demand.limit / demand.scale;
+        const double by = raise(x);
+        start[x.size()] = by / raised_by(search_);
         most_t = 1e3 * std::max(1.0, start[x.size()]);
-        add_raised(x, start[x.size()], findings.rows);
+        add_raised(x, by, findings.rows);
       }
     }
     Round round(search_, goal, motion_, judge_, std::move(findings.rows));
@@ -188,27 +195,31 @@ class Bench {
   }
 
  private:
-  /// The least figure of the raised demand.
-  double raised_figure(const Vector& x) {
-    const Demand& demand = search_.demands[*search_.raised];
-    double worst = -std::numeric_limits<double>::infinity();
+  /// By how much the raised demands' limits could be higher and still be met.
+  double raise(const Vector& x) {
+    double least = std::numeric_limits<double>::infinity();
     for (const Judged& judged : judge_.find(x, -std::numeric_limits<double>::infinity()).rows) {
-      if (judged.row.demand == *search_.raised) worst = std::max(worst, judged.residual);
+      if (is_raised(search_, judged.row.demand)) least = std::min(least, room(judged));
     }
-    return demand.limit - worst * demand.scale;
+    return least;
   }
 
-  /// Its rows that are near the least figure, and not among those near the limit.
-  void add_raised(const Vector& x, double at, std::vector<Judged>& rows) {
-    const Demand& demand = search_.demands[*search_.raised];
+  /// Their rows that are near to what they can be raised by, and not among those near the limit.
+  void add_raised(const Vector& x, double by, std::vector<Judged>& rows) {
     rows.erase(std::remove_if(rows.begin(), rows.end(),
-                              [&](const Judged& judged) { return judged.row.demand == *search_.raised; }),
+                              [&](const Judged& judged) { return is_raised(search_, judged.row.demand); }),
                rows.end());
     for (const Judged& judged : judge_.find(x, -std::numeric_limits<double>::infinity()).rows) {
-      if (judged.row.demand != *search_.raised) continue;
-      const double figure = demand.limit / demand.scale - judged.residual;
-      if (figure < at + kNear * std::max(1.0, std::abs(at))) rows.push_back({judged.row, at - figure});
+      if (!is_raised(search_, judged.row.demand)) continue;
+      const double scale = search_.demands[judged.row.demand].scale;
+      const double over = (by - room(judged)) / scale;
+      if (over > -kNear * std::max(1.0, std::abs(by) / scale)) rows.push_back({judged.row, over});
     }
+  }
+
+  /// Of a raised demand's row: what its limit could be higher by.
+  [[nodiscard]] double room(const Judged& judged) const {
+    return -judged.residual * search_.demands[judged.row.demand].scale;
   }
 
   const Search& search_;
@@ -241,7 +252,7 @@ Point meet(const Search& search, const Vector& x, int rounds) {
 
 Point improve(const Search& search, const Point& from) {
   Bench bench(search);
-  const Goal goal = search.raised ? Goal::kRaise : Goal::kImprove;
+  const Goal goal = search.raised.empty() ? Goal::kImprove : Goal::kRaise;
   Point best = from;
   double reach = kFirstReach;
   for (int round = 0; round < kRounds && reach > kLeastReach && going(search); ++round) {

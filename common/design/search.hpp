@@ -9,12 +9,12 @@
 //
 //   meet      min t         over (x, t)     r_k(x) <= t
 //   improve   min J(x)      over x          r_k(x) <= −margin
-//   raise     max L         over (x, L)     r_k(x) <= −margin,  the raised demand's with limit L
+//   raise     max t         over (x, t)     r_k(x) <= −margin,  the raised demands' with limits L + t S0
 //
 // Reference: SLSQP of NLopt (D. Kraft, A software package for sequential quadratic programming).
 
 #include <functional>
-#include <optional>
+#include <vector>
 
 #include "common/design/effort.hpp"
 
@@ -23,7 +23,7 @@ namespace gyre::design {
 struct Point {
   Eigen::VectorXd x;
   double worst = std::numeric_limits<double>::infinity();  ///< residual, over all samples
-  double cost = std::numeric_limits<double>::infinity();   ///< J, or −L in the demand's unit
+  double cost = std::numeric_limits<double>::infinity();   ///< J, or −L of the first raised demand
 };
 
 /// What is searched, whole.
@@ -31,7 +31,9 @@ struct Search {
   const mechanics::Plan* plan = nullptr;
   Unknowns unknowns;
   std::vector<Demand> demands;
-  std::optional<std::size_t> raised;  ///< the demand whose limit is to be as great as can be; absent: least effort
+  /// The demands whose limits are to be raised together, by as many metres or metres per second as can be; none: least
+  /// effort.
+  std::vector<std::size_t> raised;
   Objective objective = Objective::kLeastEverything;
   Scales scales;
   double gravity_m_s2 = 9.81;

@@ -44,16 +44,20 @@ int Workshop::samples() const {
   return finer_ * std::clamp(kSamplesOfAll / carriers, kFewSamples, kMostSamples);
 }
 
-std::optional<std::size_t> Workshop::raised() const {
-  const Objective objective = requirements_.want.objective;
+std::vector<std::size_t> Workshop::raised() const {
+  const auto wanted = [objective = requirements_.want.objective](const Demand& demand) {
+    const bool least = demand.kind == Kind::kCarrier && demand.least;
+    if (objective == Objective::kGreatestSpeed) return least && demand.figure == Figure::kSpeed;
+    if (objective != Objective::kGreatestClearance) return false;
+    // Whatever may touch; of altitudes those above the load.
+    return demand.kind == Kind::kClearance || demand.kind == Kind::kLoad ||
+           (least && demand.figure == Figure::kAltitude && demand.origin == Origin::kAlways);
+  };
+  std::vector<std::size_t> out;
   for (std::size_t d = 0; d < demands_.size(); ++d) {
-    const Demand& demand = demands_[d];
-    const bool speed = demand.kind == Kind::kCarrier && demand.figure == Figure::kSpeed && demand.least;
-    if ((speed && objective == Objective::kGreatestSpeed) ||
-        (demand.kind == Kind::kClearance && objective == Objective::kGreatestClearance))
-      return d;
+    if (wanted(demands_[d])) out.push_back(d);
   }
-  return std::nullopt;
+  return out;
 }
 
 Search Workshop::search_of(const Candidate& candidate, const std::string& doing, int samples) {

@@ -80,7 +80,7 @@ class Workshop {
   /// At the samples: the greatest residual of each demand.
   [[nodiscard]] std::vector<double> residuals(const Candidate& candidate) const;
   /// The demand whose limit is the objective.
-  [[nodiscard]] std::optional<std::size_t> raised() const;
+  [[nodiscard]] std::vector<std::size_t> raised() const;
 
  private:
   [[nodiscard]] Candidate opened(const Candidate& from) const;

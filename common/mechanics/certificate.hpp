@@ -126,7 +126,8 @@ struct Certificate {
   std::optional<Approach> separation;
   /// Of cables; at most 1 % below the truth, as is the clearance.
   std::optional<Approach> cable_distance;
-  /// How far a carrier may stray before something touches: cables, vehicles, the load (clearance.hpp).
+  /// How far a carrier may stray before its cable touches a cable, a vehicle or the load, or its vehicle a cable or
+  /// another one (clearance.hpp); of vehicles and the load speaks above_load_min_m.
   std::optional<Approach> clearance;
   /// From the load's highest corner to the lowest edge of a vehicle; absent for a load without a shape.
   std::optional<double> above_load_min_m;

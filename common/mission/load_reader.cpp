@@ -8,7 +8,8 @@
 namespace gyre::mission {
 namespace {
 
-constexpr double kUnitTolerance = 1e-6;  // of the norm of a quaternion
+constexpr double kUnitTolerance = 1e-6;     // of the norm of a quaternion
+constexpr double kInertiaTolerance = 1e-5;  // moments of a flat body, written with six digits
 constexpr Span kEdgeM{1e-6, 1e5, "m"};
 constexpr int kMaxVertices = 64;
 
@@ -27,7 +28,7 @@ Eigen::Matrix3d read_inertia(const Located& inertia) {
       "the principal moments are " + show(principal[0]) + ", " + show(principal[1]) + ", " + show(principal[2]);
   if (principal[0] <= 0.0) {
     inertia.complain(moments + "; all three have to be positive");
-  } else if (principal[0] + principal[1] < principal[2] * (1.0 - 1e-9)) {
+  } else if (principal[0] + principal[1] < principal[2] * (1.0 - kInertiaTolerance)) {
     inertia.complain(moments + "; no body has one that is greater than the sum of the other two: check the units");
   }
   return matrix;

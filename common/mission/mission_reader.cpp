@@ -168,7 +168,7 @@ std::vector<mechanics::Carrier> read_carriers(const std::vector<Located>& nodes,
     if (!open.attachments)
       (void)node.required_child("attachment_m", "give attachment_m { x: .. y: .. z: .. } in the body frame");
     carrier.attachment_b_m = node.vector("attachment_m", kPlaceM);
-    if (!open.attachments && !load.hull_b_m.empty() &&
+    if (node.has("attachment_m") && !load.hull_b_m.empty() &&
         !mechanics::LoadCone::seen_from(carrier.attachment_b_m, load.hull_b_m)) {
       node.complain("attachment_m", "is inside the load's shape; give a place on it, or a smaller shape");
     }

@@ -97,7 +97,8 @@ program::Command design_command() {
                 std::nullopt, program::Take::kUsually},
                {"--seconds", &options->seconds, "how long it may take; the best found by then is taken, as by ctrl-c",
                 program::kPositive},
-               {"--seed", &options->seed, "of what is drawn: orders of many carriers, places to begin"}})},
+               {"--seed", &options->seed, "of what is drawn: orders of many carriers, places to begin",
+                program::Bounds{0.0, 1e9}}})},
           [options] { return design(*options); }};
 }
 

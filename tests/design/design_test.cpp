@@ -103,6 +103,21 @@ TEST(Design, WhatVehiclesAndWinchesCanDoIsKeptAndCosts) {
   }
 }
 
+TEST(Design, GreatestClearanceIsOfAllThatMayTouch) {
+  Requirements asked = polygon(3, 0.8, 0.1);
+  asked.given.load.hull_b_m = mechanics::box_hull({1.0, 1.0, 0.3}, Eigen::Vector3d::Zero());
+  asked.given.limits.length_max_m = 8.0;
+  for (mechanics::Carrier& carrier : asked.given.carriers) carrier.radius_m = 0.3;
+  asked.want.objective = Objective::kGreatestClearance;
+  const Design design = designed(asked);
+  ASSERT_TRUE(design.plan);
+  const double certified_m = std::min(design.certificate.clearance->min_m, *design.certificate.above_load_min_m);
+  EXPECT_NEAR(certified_m, design.figure, 0.02 * design.figure);
+  asked.want.objective = Objective::kLeastEverything;  // nor is there one with a tenth more, as far as a search sees
+  asked.given.limits.clearance_min_m = 1.1 * certified_m;
+  EXPECT_FALSE(designed(asked).plan);
+}
+
 TEST(Design, ChoosesAttachmentsOnTheLoadsUpperFace) {
   Requirements asked = polygon(4, 0.5, 0.05);
   asked.given.load.hull_b_m = mechanics::box_hull({0.6, 0.4, 0.2}, {0.1, 0.0, 0.0});

@@ -55,9 +55,9 @@ void judge_want(const Located& place, const design::Want& want, const design::Op
   using design::Objective;
   const bool moves = plan.limits.speed_min_m_s.value_or(0.0) > 0.0;
   if (!moves && want.objective != Objective::kGreatestSpeed) {
-    place.complain("speed_min_m_s",
-                   "is missing, and standing still costs least; give the speed that no carrier may fall below, or "
-                   "objective: GREATEST_SPEED");
+    place.complain("speed_min_m_s", std::string(place.has("speed_min_m_s") ? "is no speed" : "is missing") +
+                                        ", and standing still costs least; give the speed that no carrier may fall "
+                                        "below, or objective: GREATEST_SPEED");
   }
   if (want.objective == Objective::kGreatestSpeed && !bounded_speed(want, open, plan)) {
     place.complain("objective",

@@ -30,6 +30,7 @@ gyre::coordinator::Job job_of(const gyre::mission::Mission& mission, const gyre:
   gyre::coordinator::Job job;
   job.name = mission.name;
   job.plan = mission.plan;
+  job.mission_text = gyre::mission::to_text(mission);
   job.swings = certificate.swings;
   if (mission.transition_duration_s) job.transition = gyre::from_seconds(*mission.transition_duration_s);
   job.silence = mission.silence;
@@ -56,6 +57,7 @@ class Wire {
     beacon_ = node.writer<protocol::Beacon>();
     replies_ = node.writer<protocol::CommandReply>();
     status_ = node.writer<protocol::CoordinatorStatus>();
+    mission_ = node.writer<protocol::MissionText>();
     for (const gyre::mechanics::Carrier& carrier : plan.carriers) {
       time_replies_[carrier.id] = node.writer<protocol::TimeReply>(carrier.id);
       offers_[carrier.id] = node.writer<protocol::PlanOffer>(carrier.id);
@@ -95,6 +97,7 @@ class Wire {
     for (const protocol::PlanOffer& offer : out.offers) offers_.at(offer.carrier).write(offer);
     if (out.beacon) beacon_.write(*out.beacon);
     if (out.status) status_.write(*out.status);
+    if (out.mission) mission_.write(*out.mission);
     for (const protocol::CommandReply& reply : out.replies) replies_.write(reply);
   }
 
@@ -110,6 +113,7 @@ class Wire {
   gyre::dds::Writer<protocol::Beacon> beacon_;
   gyre::dds::Writer<protocol::CommandReply> replies_;
   gyre::dds::Writer<protocol::CoordinatorStatus> status_;
+  gyre::dds::Writer<protocol::MissionText> mission_;
   std::map<gyre::CarrierId, gyre::dds::Writer<protocol::TimeReply>> time_replies_;
   std::map<gyre::CarrierId, gyre::dds::Writer<protocol::PlanOffer>> offers_;
 };

@@ -361,6 +361,19 @@ std::optional<protocol::CoordinatorStatus> decode(const idl::CoordinatorStatus& 
   return message;
 }
 
+std::optional<idl::MissionText> encode(const protocol::MissionText& message) {
+  if (message.text != fitting_text(message.text, protocol::kMaxMissionBytes)) return std::nullopt;
+  idl::MissionText wire;
+  wire.term(message.term);
+  wire.plan(to_wire(message.plan));
+  wire.text(message.text);
+  return wire;
+}
+
+std::optional<protocol::MissionText> decode(const idl::MissionText& wire) {
+  return protocol::MissionText{wire.term(), from_wire(wire.plan()), wire.text().to_string()};
+}
+
 std::optional<idl::Health> encode(const protocol::Health& message) {
   idl::Health wire;
   wire.process(fitting_text(message.process, protocol::kMaxTextBytes));

@@ -33,6 +33,7 @@ template <> struct Wire<protocol::LoadState>    { using Type = fast::idl::LoadSt
 template <> struct Wire<protocol::Command>      { using Type = fast::idl::Command;         using Support = fast::idl::CommandPubSubType; };
 template <> struct Wire<protocol::CommandReply> { using Type = fast::idl::CommandReply;    using Support = fast::idl::CommandReplyPubSubType; };
 template <> struct Wire<protocol::CoordinatorStatus> { using Type = fast::idl::CoordinatorStatus; using Support = fast::idl::CoordinatorStatusPubSubType; };
+template <> struct Wire<protocol::MissionText>  { using Type = fast::idl::MissionText;     using Support = fast::idl::MissionTextPubSubType; };
 template <> struct Wire<protocol::Health>       { using Type = fast::idl::Health;          using Support = fast::idl::HealthPubSubType; };
 // clang-format on
 
@@ -48,6 +49,7 @@ template <> struct Wire<protocol::Health>       { using Type = fast::idl::Health
 [[nodiscard]] std::optional<fast::idl::Command> encode(const protocol::Command& message);
 [[nodiscard]] std::optional<fast::idl::CommandReply> encode(const protocol::CommandReply& message);
 [[nodiscard]] std::optional<fast::idl::CoordinatorStatus> encode(const protocol::CoordinatorStatus& message);
+[[nodiscard]] std::optional<fast::idl::MissionText> encode(const protocol::MissionText& message);
 [[nodiscard]] std::optional<fast::idl::Health> encode(const protocol::Health& message);
 
 [[nodiscard]] std::optional<protocol::Beacon> decode(const fast::idl::Beacon& wire);
@@ -62,6 +64,7 @@ template <> struct Wire<protocol::Health>       { using Type = fast::idl::Health
 [[nodiscard]] std::optional<protocol::Command> decode(const fast::idl::Command& wire);
 [[nodiscard]] std::optional<protocol::CommandReply> decode(const fast::idl::CommandReply& wire);
 [[nodiscard]] std::optional<protocol::CoordinatorStatus> decode(const fast::idl::CoordinatorStatus& wire);
+[[nodiscard]] std::optional<protocol::MissionText> decode(const fast::idl::MissionText& wire);
 [[nodiscard]] std::optional<protocol::Health> decode(const fast::idl::Health& wire);
 
 /// The longest beginning of a UTF-8 text that fits into `bytes`, holds no NUL and cuts no character in two.

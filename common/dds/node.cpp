@@ -202,6 +202,7 @@ GYRE_CARRY(protocol::LoadState)
 GYRE_CARRY(protocol::Command)
 GYRE_CARRY(protocol::CommandReply)
 GYRE_CARRY(protocol::CoordinatorStatus)
+GYRE_CARRY(protocol::MissionText)
 GYRE_CARRY(protocol::Health)
 #undef GYRE_CARRY
 

@@ -44,6 +44,7 @@ template <> inline constexpr Topic kTopic<protocol::LoadState>    {"load/state",
 template <> inline constexpr Topic kTopic<protocol::Command>      {"command",       "gyre_msgs::msg::dds_::Command_",         false, Delivery::kEach};
 template <> inline constexpr Topic kTopic<protocol::CommandReply> {"command_reply", "gyre_msgs::msg::dds_::CommandReply_",    false, Delivery::kEach};
 template <> inline constexpr Topic kTopic<protocol::CoordinatorStatus> {"coordinator/status", "gyre_msgs::msg::dds_::CoordinatorStatus_", false, Delivery::kRetained};
+template <> inline constexpr Topic kTopic<protocol::MissionText>  {"mission",       "gyre_msgs::msg::dds_::MissionText_",     false, Delivery::kRetained};
 template <> inline constexpr Topic kTopic<protocol::Health>       {"health",        "gyre_msgs::msg::dds_::Health_",          false, Delivery::kFromMany};
 // clang-format on
 

@@ -186,6 +186,14 @@ struct CoordinatorStatus {
   std::string news;                 ///< the latest of what it has to tell; at most kMaxTextBytes
 };
 
+/// Topic mission, coordinator to ground: the mission in force as a file's text, so that whoever joins a flight knows
+/// its load, its shape and its limits without the file.
+struct MissionText {
+  std::uint64_t term = 0;
+  PlanNumber plan;   ///< as CoordinatorStatus names it
+  std::string text;  ///< at most kMaxMissionBytes; empty: longer than that
+};
+
 /// Topic health, every process to ground and coordinator: whether it does its work, what it dropped, and why.
 struct Health {
   std::string process;    ///< "agent 3"; at most kMaxTextBytes

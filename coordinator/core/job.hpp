@@ -24,6 +24,7 @@ struct Job {
   /// shortest_transition.
   std::optional<Duration> transition;
   protocol::Silence silence;
+  std::string mission_text = {};                 ///< the file as the swarm is told it; opaque here
   std::optional<mechanics::Swings> swings = {};  ///< of its certificate; absent: not judged
 };
 
@@ -69,6 +70,7 @@ struct Outputs {
   std::vector<protocol::PlanOffer> offers;
   std::optional<protocol::Beacon> beacon;
   std::optional<protocol::CoordinatorStatus> status;
+  std::optional<protocol::MissionText> mission;
   std::vector<protocol::CommandReply> replies;
   Notices notices;
   std::optional<Outcome> finished;  ///< nothing more to do; the process may end

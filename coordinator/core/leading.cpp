@@ -92,6 +92,11 @@ void Leading::tick(LocalTime now, Outputs& out) {
   if (now >= next_status_) {
     next_status_ = now + options_.status_period;
     out.status = status(now);
+    if (mission_told_ != out.status->plan) {
+      const std::string& text = mission_in_force().mission_text;
+      out.mission = {term_, out.status->plan, text.size() <= protocol::kMaxMissionBytes ? text : ""};
+      mission_told_ = out.status->plan;
+    }
   }
 }
 

@@ -138,6 +138,7 @@ class Leading {
   std::uint64_t sequence_ = 0;  ///< of beacons
   std::uint64_t offers_ = 0;
   LocalTime next_status_ = LocalTime::min();
+  protocol::PlanNumber mission_told_;  ///< whose text went out last
   LocalTime retry_at_ = LocalTime::min();
   std::optional<LocalTime> not_ready_since_;  ///< all agents are, and somebody complains
   bool shutting_down_ = false;

@@ -31,30 +31,17 @@ Flight::Flight(const mission::Mission& mission, double duration_s, dds::Node& no
       node_(node),
       supervisor_(supervisor),
       display_(display),
-      monitor_(carrier_ids(mission), dds::now()),
+      listening_(node, Interest::kCarriers),
+      monitor_(view_, carrier_ids(mission), dds::now()),
       record_(mission.plan),
       certificate_(mission.plan) {
-  listen(node);
-}
-
-void Flight::listen(dds::Node& node) {
-  const auto enqueue = [inbox = inbox_](auto message, LocalTime arrived) {
-    inbox->push({std::move(message), arrived});
-  };
-  node.read<protocol::Beacon>(enqueue);
-  node.read<protocol::CoordinatorStatus>(enqueue);
-  node.read<protocol::LoadState>(enqueue);
-  node.read<protocol::Health>(enqueue);
-  for (const CarrierId id : carrier_ids(mission_)) {
-    node.read<protocol::AgentStatus>(enqueue, id);
-    node.read<protocol::CarrierState>(enqueue, id);
-  }
+  listening_.attend(carrier_ids(mission));
 }
 
 std::optional<FlightFailure> Flight::run() {
   while (!released_) {
     std::this_thread::sleep_for(kTick);
-    for (const Event& event : inbox_->wait_until(dds::now())) take(event);
+    for (const Heard& heard : listening_.wait_until(dds::now())) take(heard);
     node_.answer_callers({"gyre fly", ""});
     const LocalTime now = dds::now();
     starvation_.see(now, processor_account());
@@ -76,28 +63,24 @@ std::optional<FlightFailure> Flight::run() {
   return std::nullopt;
 }
 
-void Flight::take(const Event& event) {
-  if (const auto* beacon = std::get_if<protocol::Beacon>(&event.message)) {
-    monitor_.see(*beacon, event.arrived);
+void Flight::take(const Heard& heard) {
+  if (!view_.step(heard.arrived, heard.message)) return;
+  monitor_.look(heard.arrived);
+  if (const auto* beacon = std::get_if<protocol::Beacon>(&heard.message)) {
     certificate_.include(beacon->course);
     record_.see_beacon();
-  } else if (const auto* word = std::get_if<protocol::CoordinatorStatus>(&event.message)) {
-    monitor_.see(*word);
+  } else if (const auto* word = std::get_if<protocol::CoordinatorStatus>(&heard.message)) {
     certificate_.see(*word);
-  } else if (const auto* status = std::get_if<protocol::AgentStatus>(&event.message)) {
-    monitor_.see(*status, event.arrived);
-    if (monitor_.under_way(event.arrived)) record_.see(*status);
-  } else if (const auto* carrier = std::get_if<protocol::CarrierState>(&event.message)) {
-    if (!world_.believes(event.arrived, carrier->incarnation)) return;
-    monitor_.see(*carrier, event.arrived);
-    if (monitor_.under_way(event.arrived)) {
-      record_.see(*carrier, monitor_.phase(event.arrived) == FlightPhase::kFlying);
-    }
-  } else if (const auto* load = std::get_if<protocol::LoadState>(&event.message)) {
-    if (!world_.believes(event.arrived, load->incarnation)) return;
-    if (monitor_.under_way(event.arrived)) record_.see(*load, event.arrived);
-  } else if (const auto* health = std::get_if<protocol::Health>(&event.message)) {
-    if (monitor_.under_way(event.arrived)) record_.see(*health);
+  }
+  if (!monitor_.under_way(heard.arrived)) return;
+  if (const auto* status = std::get_if<protocol::AgentStatus>(&heard.message)) {
+    record_.see(*status);
+  } else if (const auto* carrier = std::get_if<protocol::CarrierState>(&heard.message)) {
+    record_.see(*carrier, monitor_.phase(heard.arrived) == FlightPhase::kFlying);
+  } else if (const auto* load = std::get_if<protocol::LoadState>(&heard.message)) {
+    record_.see(*load, heard.arrived);
+  } else if (const auto* health = std::get_if<protocol::Health>(&heard.message)) {
+    record_.see(*health);
   }
 }
 

@@ -7,11 +7,8 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 
-#include "common/dds/inbox.hpp"
 #include "common/mission/mission.hpp"
-#include "common/protocol/incumbent.hpp"
 #include "ground/flight/core/flight_certificate.hpp"
 #include "ground/flight/core/flight_monitor.hpp"
 #include "ground/flight/core/flight_record.hpp"
@@ -20,6 +17,8 @@
 #include "ground/flight/flight_display.hpp"
 #include "ground/flight/flight_network.hpp"
 #include "ground/flight/supervisor.hpp"
+#include "ground/swarm/core/swarm_view.hpp"
+#include "ground/swarm/listening.hpp"
 
 namespace gyre::ground {
 
@@ -46,16 +45,7 @@ class Flight {
   [[nodiscard]] const StarvationJudge& starvation() const { return starvation_; }
 
  private:
-  using Message = std::variant<protocol::Beacon, protocol::CoordinatorStatus, protocol::AgentStatus,
-                               protocol::CarrierState, protocol::LoadState, protocol::Health>;
-  struct Event {
-    Message message;
-    LocalTime arrived;
-  };
-  using EventInbox = dds::Inbox<Event>;
-
-  void listen(dds::Node& node);
-  void take(const Event& event);
+  void take(const Heard& heard);
   [[nodiscard]] std::optional<FlightFailure> look_after_processes();
   void release(LocalTime now);
   void show(LocalTime now);
@@ -65,12 +55,12 @@ class Flight {
   dds::Node& node_;
   Supervisor& supervisor_;
   FlightDisplay& display_;
-  std::shared_ptr<EventInbox> inbox_ = std::make_shared<EventInbox>(std::size_t{1} << 16);
+  Listening listening_;
+  SwarmView view_;
   FlightMonitor monitor_;
   FlightRecord record_;
   FlightCertificate certificate_;
   StarvationJudge starvation_;
-  protocol::Incumbent world_{std::chrono::seconds(1)};  ///< whose load and carriers these are
   std::optional<LocalTime> release_deadline_;
   bool released_ = false;
   int interrupts_ = 0;

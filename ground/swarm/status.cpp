@@ -2,12 +2,10 @@
 
 #include <cstdio>
 #include <memory>
-#include <set>
-#include <variant>
 
-#include "common/dds/inbox.hpp"
 #include "common/program/program.hpp"
 #include "ground/swarm/core/swarm_picture.hpp"
+#include "ground/swarm/listening.hpp"
 
 namespace gyre::ground {
 namespace {
@@ -16,43 +14,28 @@ constexpr Duration kPatience = std::chrono::seconds(5);
 /// Health comes once a second: the last thing to wait for.
 constexpr Duration kAfterwards = std::chrono::milliseconds(1100);
 
-using Heard = std::variant<protocol::CoordinatorStatus, protocol::Beacon, protocol::AgentStatus, protocol::LoadState,
-                           protocol::Health>;
-
 int show(const program::NetworkOptions& options) {
-  dds::Inbox<Heard> inbox;  // outlives the node, whose handlers fill it
   const auto opened = program::open_node(options, {});
   if (!opened) return opened.error();
   dds::Node& node = *opened.value();
-  const auto keep = [&inbox](auto message, LocalTime) { inbox.push(std::move(message)); };
-  node.read<protocol::CoordinatorStatus>(keep);
-  node.read<protocol::Beacon>(keep);
-  node.read<protocol::LoadState>(keep);
-  node.read<protocol::Health>(keep);
-
-  SwarmPicture picture;
-  std::set<CarrierId> read;
+  Listening listening(node, Interest::kAgents);
+  SwarmView view;
   LocalTime deadline = dds::now() + kPatience;
-  bool complete = false;
+  bool whole = false;
   while (dds::now() < deadline) {
-    for (const Heard& heard : inbox.wait_until(deadline)) {
-      std::visit([&picture](const auto& message) { picture.see(message); }, heard);
-    }
-    if (!picture.coordinator()) continue;
-    for (const CarrierId id : picture.coordinator()->carriers) {
-      if (read.insert(id).second) node.read<protocol::AgentStatus>(keep, id);
-    }
-    if (!complete && picture.complete()) {
-      complete = true;
+    for (const Heard& heard : listening.wait_until(deadline)) view.step(heard.arrived, heard.message);
+    listening.attend(view.carrier_ids());
+    if (!whole && complete(view)) {
+      whole = true;
       deadline = dds::now() + kAfterwards;
     }
   }
-  if (!picture.coordinator()) {
+  if (!view.coordinator()) {
     std::fprintf(stderr, "No coordinator was heard on domain %d within %.0f s; choose another domain with --domain.\n",
                  node.domain(), seconds(kPatience));
     return program::kFailed;
   }
-  std::fputs(picture.table().c_str(), stdout);
+  std::fputs(table(view, dds::now()).c_str(), stdout);
   return program::kGood;
 }
 

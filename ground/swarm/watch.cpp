@@ -6,16 +6,15 @@
 #include <memory>
 #include <string>
 #include <utility>
-#include <variant>
 
 #include "common/base/interrupts.hpp"
 #include "common/base/log.hpp"
 #include "common/dds/health_reporter.hpp"
-#include "common/dds/inbox.hpp"
 #include "common/program/mission_argument.hpp"
 #include "common/program/program.hpp"
 #include "ground/swarm/account_text.hpp"
 #include "ground/swarm/core/swarm_watch.hpp"
+#include "ground/swarm/listening.hpp"
 
 namespace gyre::ground {
 namespace {
@@ -27,12 +26,6 @@ struct WatchOptions {
   std::optional<double> period_s;
   bool json = false;
   program::Options common;
-};
-
-using Message = std::variant<protocol::Beacon, protocol::CoordinatorStatus, protocol::Health, protocol::LoadState>;
-struct Heard {
-  Message message;
-  LocalTime arrived;
 };
 
 /// What is worth a line of its own when it changes; the figures are not.
@@ -56,10 +49,8 @@ void merge(Account& account, const Account& next) {
   account = next;
   for (const auto& [process, late] : late_max) account.late_max[process] = std::max(account.late_max[process], late);
   if (!complaint.empty()) account.complaint = complaint;
-  account.load.displacement_max_m = std::max(before.displacement_max_m, next.load.displacement_max_m);
-  account.load.rotation_max_deg = std::max(before.rotation_max_deg, next.load.rotation_max_deg);
-  account.load.residual_max = std::max(before.residual_max, next.load.residual_max);
-  account.load.samples += before.samples;
+  account.load = before;
+  account.load.include(next.load);
 }
 
 /// The ground's own seat, where `gyre health` asks; who comes later watches as a visitor.
@@ -74,16 +65,11 @@ int watch(const WatchOptions& options) {
   if (const auto answer = program::start("gyre watch", options.common)) return *answer;
   const auto mission = program::read_mission(options.mission);
   if (!mission) return mission.error();
-  dds::Inbox<Heard> inbox(std::size_t{1} << 14);  // outlives the node, whose handlers fill it
   const auto opened = program::open_node(options.common.network, seat(options.common.network));
   if (!opened) return opened.error();
   dds::Node& node = *opened.value();
   dds::HealthReporter health(node, "ground");
-  const auto keep = [&inbox](auto message, LocalTime arrived) { inbox.push({std::move(message), arrived}); };
-  node.read<protocol::Beacon>(keep);
-  node.read<protocol::CoordinatorStatus>(keep);
-  node.read<protocol::Health>(keep);
-  node.read<protocol::LoadState>(keep);
+  Listening listening(node, Interest::kSwarm);
 
   const Duration period = from_seconds(options.period_s.value_or(options.json ? 1.0 : 10.0));
   SwarmWatch swarm(mission.value(), dds::now());
@@ -94,11 +80,11 @@ int watch(const WatchOptions& options) {
   while (take_interrupts().total() == 0) {
     next_beat += kBeat;
     if (next_beat < dds::now()) next_beat = dds::now() + kBeat;  // a stall is not made up for
-    for (const Heard& heard : inbox.sleep_until(next_beat)) {
-      std::visit([&](const auto& message) { swarm.see(message, heard.arrived); }, heard.message);
+    for (const Heard& heard : listening.sleep_until(next_beat)) {
+      swarm.see(heard.arrived, heard.message);
     }
     const LocalTime now = dds::now();
-    health.step(now, swarm.out_of_contact(now), {}, inbox.dropped(), inbox.late());
+    health.step(now, swarm.out_of_contact(now), {}, listening.dropped(), listening.late());
     merge(pending, swarm.account(now));
     const Headline headline(pending);
     const bool news = !options.json && (!told || headline != *told);

@@ -27,7 +27,7 @@ template <class Message>
 class EveryMessage : public testing::Test {};
 
 using Messages = testing::Types<Beacon, PlanOffer, HeldPlans, TimeRequest, TimeReply, AgentStatus, Setpoint,
-                                CarrierState, LoadState, Command, CommandReply, CoordinatorStatus, Health>;
+                                CarrierState, LoadState, Command, CommandReply, CoordinatorStatus, MissionText, Health>;
 TYPED_TEST_SUITE(EveryMessage, Messages);
 
 /// A message through the generated serialisation as well, as it crosses the wire.
@@ -309,6 +309,8 @@ TEST(Codec, AMissionIsSentWholeOrNotAtAll) {
   EXPECT_TRUE(dds::encode(retune(std::string(kMaxMissionBytes, 'm'))));
   EXPECT_FALSE(dds::encode(retune(std::string(kMaxMissionBytes + 1, 'm'))));
   EXPECT_FALSE(dds::encode(retune(std::string("name\0hidden", 11))));
+  EXPECT_TRUE(dds::encode(MissionText{1, {1, 2}, std::string(kMaxMissionBytes, 'm')}));
+  EXPECT_FALSE(dds::encode(MissionText{1, {1, 2}, std::string(kMaxMissionBytes + 1, 'm')}));
 }
 
 TEST(Codec, TextsAreCutBetweenCharacters) {
@@ -341,6 +343,7 @@ TEST(Topics, FollowRosNamesAndNameTheCarrier) {
   EXPECT_EQ(dds::topic_name(dds::kTopic<CommandReply>, std::nullopt), "rt/gyre/command_reply");
   EXPECT_EQ(dds::topic_name(dds::kTopic<HeldPlans>, 3), "rt/gyre/carrier_3/held");
   EXPECT_EQ(dds::topic_name(dds::kTopic<CoordinatorStatus>, std::nullopt), "rt/gyre/coordinator/status");
+  EXPECT_EQ(dds::topic_name(dds::kTopic<MissionText>, std::nullopt), "rt/gyre/mission");
   EXPECT_EQ(dds::topic_name(dds::kTopic<Health>, std::nullopt), "rt/gyre/health");
 }
 

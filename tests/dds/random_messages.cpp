@@ -54,6 +54,7 @@ template <class V> void each_field(protocol::LoadState& m, V& v) { auto& [a, b, 
 template <class V> void each_field(protocol::Command& m, V& v) { auto& [a, b, c, d, e] = m; visit_all(v, a, b, c, d, e); }
 template <class V> void each_field(protocol::CommandReply& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
 template <class V> void each_field(protocol::CoordinatorStatus& m, V& v) { auto& [a, b, c, d, e, f, g, h, i] = m; visit_all(v, a, b, c, d, e, f, g, h, i); }
+template <class V> void each_field(protocol::MissionText& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
 template <class V> void each_field(protocol::Health& m, V& v) { auto& [a, b, c, d, e, f, g] = m; visit_all(v, a, b, c, d, e, f, g); }
 // clang-format on
 
@@ -170,7 +171,9 @@ template <class Message>
 Message random_message() {
   Message message;
   Randomiser randomiser;
-  if constexpr (std::is_same_v<Message, protocol::Command>) randomiser.text_bytes = protocol::kMaxMissionBytes;
+  constexpr bool kHoldsAMission =
+      std::is_same_v<Message, protocol::Command> || std::is_same_v<Message, protocol::MissionText>;
+  if constexpr (kHoldsAMission) randomiser.text_bytes = protocol::kMaxMissionBytes;
   each_field(message, randomiser);
   return message;
 }
@@ -211,6 +214,8 @@ template protocol::CommandReply random_message<protocol::CommandReply>();
 template std::string bits_of(const protocol::CommandReply&);
 template protocol::CoordinatorStatus random_message<protocol::CoordinatorStatus>();
 template std::string bits_of(const protocol::CoordinatorStatus&);
+template protocol::MissionText random_message<protocol::MissionText>();
+template std::string bits_of(const protocol::MissionText&);
 template protocol::Health random_message<protocol::Health>();
 template std::string bits_of(const protocol::Health&);
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kSwarmAhead_s = 5000.0;       // swarm time has nothing to do with this process's clock
 constexpr protocol::PlanNumber kMotion{5, 2};  // whatever it is called
+constexpr std::uint64_t kTerm = 1;
 
 LocalTime local(double time_s) {
   return LocalTime(from_seconds(time_s));
@@ -21,10 +22,22 @@ SwarmTime swarm(double local_s) {
 
 class FlightMonitorTest : public testing::Test {
  protected:
-  FlightMonitor monitor{{1, 2, 5}, local(0.0)};
+  SwarmView view;
+  FlightMonitor monitor{view, {1, 2, 5}, local(0.0)};
   protocol::Course course;
+  std::uint64_t word_term = 7;
+  double last_s = 0.0;  ///< when the last message came
 
-  void SetUp() override { course.base = {kMotion, PlanTime{}}; }
+  void SetUp() override {
+    course.term = kTerm;
+    course.base = {kMotion, PlanTime{}};
+  }
+
+  void hear(double time_s, const SwarmMessage& message) {
+    last_s = time_s;
+    EXPECT_TRUE(view.step(local(time_s), message));
+    monitor.look(local(time_s));
+  }
 
   void ramp(double start_s, double duration_s, double target) {
     course.pace = course.pace.with_ramp(swarm(start_s), from_seconds(duration_s), target);
@@ -32,29 +45,34 @@ class FlightMonitorTest : public testing::Test {
 
   void beacon(double time_s) {
     protocol::Beacon beacon;
-    beacon.term = 1;
+    beacon.term = kTerm;
     beacon.swarm_time = swarm(time_s);
     beacon.course = course;
-    monitor.see(beacon, local(time_s));
+    hear(time_s, beacon);
   }
   /// The coordinator's, while this is the plan of the mission in force.
-  void word(const protocol::PlanNumber& motion = kMotion, std::uint64_t term = 7) {
+  void word(const protocol::PlanNumber& motion = kMotion) {
     protocol::CoordinatorStatus status;
-    status.term = term;
+    status.term = word_term;
     status.plan = motion;
-    monitor.see(status);
+    hear(last_s, status);
+  }
+  void vehicle(double time_s) {
+    protocol::CarrierState state;
+    state.carrier = 1;
+    hear(time_s, state);
   }
   void agent(CarrierId id, double time_s, bool ready = true) {
     protocol::AgentStatus status;
     status.carrier = id;
     status.accepted = ready ? std::vector{kMotion} : std::vector<protocol::PlanNumber>{};
-    monitor.see(status, local(time_s));
+    hear(time_s, status);
   }
   void everybody(double time_s) {
     beacon(time_s);
     word();
     for (const CarrierId id : {1U, 2U, 5U}) agent(id, time_s);
-    monitor.see(protocol::CarrierState{}, local(time_s));
+    vehicle(time_s);
   }
   [[nodiscard]] std::string phase(double time_s) const { return name(monitor.phase(local(time_s))); }
   [[nodiscard]] std::string complaint(double time_s) const { return monitor.complaint(local(time_s)).value_or("none"); }
@@ -64,7 +82,7 @@ TEST_F(FlightMonitorTest, GoesThroughAWholeFlight) {
   EXPECT_EQ(phase(0.0), "starting");
   beacon(0.5);
   EXPECT_EQ(phase(0.5), "starting");  // no simulator yet
-  monitor.see(protocol::CarrierState{}, local(0.6));
+  vehicle(0.6);
   agent(1, 0.6);
   EXPECT_EQ(phase(0.6), "starting");  // and nobody knows yet which plan is the mission's
   EXPECT_EQ(monitor.agents_ready(), 0);
@@ -103,13 +121,13 @@ TEST_F(FlightMonitorTest, GoesThroughAWholeFlight) {
 
 TEST_F(FlightMonitorTest, WhatIsProposedIsNotYetAgreed) {
   protocol::Beacon beacon;
-  beacon.term = 1;
+  beacon.term = kTerm;
   beacon.swarm_time = swarm(1.0);
   beacon.course = course;
   beacon.proposal = course;
   beacon.proposal->pace = course.pace.with_ramp(swarm(2.0), from_seconds(4.0), 1.0);
   everybody(1.0);
-  monitor.see(beacon, local(1.0));
+  hear(1.0, beacon);
   EXPECT_EQ(phase(3.0), "engaging");
   EXPECT_FALSE(monitor.under_way(local(3.0)));
   EXPECT_EQ(monitor.flown(local(9.0)), Duration::zero());
@@ -200,7 +218,7 @@ TEST_F(FlightMonitorTest, ARetuneIsADeviationThoughTheCoordinatorCallsItTheMissi
 TEST_F(FlightMonitorTest, ACoordinatorThatTakesOverAndKnowsThePlanAgainChangesNothing) {
   ramp(2.0, 4.0, 1.0);
   everybody(5.0);
-  word(kMotion, 8);
+  ++word_term;
   everybody(7.0);
   EXPECT_EQ(phase(7.0), "flying");
   EXPECT_NEAR(seconds(monitor.flown(local(16.0))), 10.0, 1e-9);
@@ -209,7 +227,7 @@ TEST_F(FlightMonitorTest, ACoordinatorThatTakesOverAndKnowsThePlanAgainChangesNo
 TEST_F(FlightMonitorTest, WhatIsUnderWayIsKnownWhenTheCoordinatorHasTold) {
   ramp(2.0, 4.0, 1.0);
   beacon(1.5);
-  monitor.see(protocol::CarrierState{}, local(1.5));
+  vehicle(1.5);
   EXPECT_EQ(phase(3.0), "starting");
   EXPECT_FALSE(monitor.under_way(local(3.0)));
   word();
@@ -227,7 +245,7 @@ TEST_F(FlightMonitorTest, NamesWhoDidNotComeUp) {
   EXPECT_EQ(complaint(21.0), "the coordinator did not tell which plan is the mission's within 20 s");
   word();
   EXPECT_EQ(complaint(21.0), "the simulator was not heard within 20 s");
-  monitor.see(protocol::CarrierState{}, local(21.0));
+  vehicle(21.0);
   EXPECT_EQ(complaint(21.0), "none");
   agent(2, 22.0);
   EXPECT_EQ(complaint(31.0), "agents 1 and 5 did not accept the motion within 30 s");
@@ -241,7 +259,7 @@ TEST_F(FlightMonitorTest, ARefusalIsToldAtOnce) {
   status.carrier = 5;
   status.refused = kMotion;
   status.refusal = "tension 9 N, this vehicle lifts 5 N";
-  monitor.see(status, local(1.1));
+  hear(1.1, status);
   EXPECT_EQ(complaint(1.1), "agent 5 refuses the motion: tension 9 N, this vehicle lifts 5 N");
 }
 
@@ -257,7 +275,7 @@ TEST_F(FlightMonitorTest, SilenceIsNamed) {
   EXPECT_EQ(complaint(13.0), "the coordinator was silent for more than 5 s");
   beacon(13.0);
   EXPECT_EQ(complaint(13.0), "the simulator was silent for more than 5 s");
-  monitor.see(protocol::CarrierState{}, local(13.0));
+  vehicle(13.0);
   agent(2, 13.0);
   EXPECT_EQ(complaint(13.0), "agents 1 and 5 were silent for more than 5 s");
 }

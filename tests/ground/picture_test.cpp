@@ -32,10 +32,10 @@ class PictureTest : public testing::Test {
   }
   [[nodiscard]] std::string course() const { return course_line(beacon_, status_); }
   [[nodiscard]] std::string line(const std::string& start) const {
-    SwarmPicture picture;
-    picture.see(status_);
-    picture.see(beacon_);
-    std::istringstream lines(picture.table());
+    SwarmView view;
+    view.step(LocalTime{}, status_);
+    view.step(LocalTime{}, beacon_);
+    std::istringstream lines(table(view, LocalTime{}));
     for (std::string line; std::getline(lines, line);) {
       if (line.rfind(start, 0) == 0) return line.substr(start.size());
     }
@@ -113,9 +113,9 @@ TEST_F(PictureTest, TellsThePaceAndHowLongTheLeaseRuns) {
 }
 
 TEST_F(PictureTest, WithoutABeaconNothingIsWished) {
-  SwarmPicture picture;
-  picture.see(status_);
-  EXPECT_EQ(picture.table().find("wish"), std::string::npos) << picture.table();
+  SwarmView view;
+  view.step(LocalTime{}, status_);
+  EXPECT_EQ(table(view, LocalTime{}).find("wish"), std::string::npos) << table(view, LocalTime{});
 }
 
 }  // namespace

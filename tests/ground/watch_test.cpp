@@ -35,6 +35,7 @@ class WatchTest : public testing::Test {
  protected:
   WatchTest() {
     beacon_.term = status_.term = kMotion.term;
+    beacon_.course.term = beacon_.term;
     beacon_.swarm_time = kNow;
     beacon_.course.base.number = kMotion;
     beacon_.course.pace = at_pace(1.0);
@@ -47,13 +48,13 @@ class WatchTest : public testing::Test {
   }
 
   void hear_all() {
-    watch_.see(beacon_, now_);
-    watch_.see(status_, now_);
+    watch_.see(now_, beacon_);
+    watch_.see(now_, status_);
     see_load();
   }
   void see_load() {
     load_.stamp = now_;
-    watch_.see(load_, now_);
+    watch_.see(now_, load_);
   }
   [[nodiscard]] Account account() { return watch_.account(now_); }
   [[nodiscard]] std::string complaint() { return account().complaint; }
@@ -77,7 +78,7 @@ TEST_F(WatchTest, ASecondSimulatorThatComesAndGoesIsNotTheLoad) {
       protocol::LoadState other = load_;
       other.incarnation = 5;
       other.position_w_m.x() += 0.5;
-      watch_.see(other, now_ + milliseconds(3));
+      watch_.see(now_ + milliseconds(3), other);
     }
     now_ += milliseconds(10);
   }
@@ -86,13 +87,13 @@ TEST_F(WatchTest, ASecondSimulatorThatComesAndGoesIsNotTheLoad) {
 
 TEST_F(WatchTest, IsCalmOnlyWhenEverythingIsHeardAndAsItShouldBe) {
   EXPECT_EQ(complaint(), "the coordinator is not heard");
-  watch_.see(beacon_, now_);
+  watch_.see(now_, beacon_);
   EXPECT_EQ(complaint(), "nobody tells where the load is");
   EXPECT_EQ(watch_.out_of_contact(now_), "nobody tells where the load is");
   see_load();
   EXPECT_EQ(complaint(), "the coordinator beacons, but does not say how it is");
   EXPECT_FALSE(watch_.out_of_contact(now_));
-  watch_.see(status_, now_);
+  watch_.see(now_, status_);
   EXPECT_TRUE(account().calm());
   EXPECT_EQ(account().course, "motion");
   now_ += milliseconds(501);
@@ -107,8 +108,8 @@ TEST_F(WatchTest, SaysWhatIsWrong) {
     auto status = status_;
     auto beacon = beacon_;
     change(status, beacon);
-    watch_.see(status, now_);
-    watch_.see(beacon, now_);
+    watch_.see(now_, status);
+    watch_.see(now_, beacon);
     const std::string words = complaint();
     hear_all();
     EXPECT_TRUE(account().calm());
@@ -117,7 +118,10 @@ TEST_F(WatchTest, SaysWhatIsWrong) {
   using Status = protocol::CoordinatorStatus;
   using Beacon = protocol::Beacon;
   EXPECT_EQ(with([](Status& s, Beacon&) { s.silent = {3}; }), "carrier 3 is silent");
-  EXPECT_EQ(with([](Status&, Beacon& b) { b.course.transitions.emplace_back(); }), "a transition is under way");
+  EXPECT_EQ(with([](Status&, Beacon& b) {
+              b.course.transitions = {{{kOther, {}}, {}, seconds(1)}};
+            }),
+            "a transition is under way");
   EXPECT_EQ(with([](Status&, Beacon& b) { b.course.base.number = kOther; }),
             "the load is not held by the mission's plan");
   EXPECT_EQ(
@@ -134,9 +138,9 @@ TEST_F(WatchTest, SaysWhatIsWrong) {
   EXPECT_EQ(with([](Status& s, Beacon&) { s.skew = milliseconds(11); }),
             "the clocks may disagree by 11 ms, the plan in force allows 10 ms");
   EXPECT_EQ(with([](Status& s, Beacon&) { s.skew_budget = Duration::zero(), s.skew = seconds(9); }), "");
-  watch_.see(protocol::Health{"agent 2", "its vehicle is silent", {}, 0, 0, 0}, now_);
+  watch_.see(now_, protocol::Health{"agent 2", "its vehicle is silent", {}, 0, 0, 0});
   EXPECT_EQ(complaint(), "agent 2: its vehicle is silent");
-  watch_.see(protocol::Health{"agent 2", "", {}, 0, 0, 0}, now_);
+  watch_.see(now_, protocol::Health{"agent 2", "", {}, 0, 0, 0});
   EXPECT_TRUE(account().calm());
   load_.position_w_m.z() += 0.0015;
   see_load();
@@ -206,7 +210,7 @@ TEST_F(WatchTest, BelievesTheNewerOfTwoCoordinatorsAndALaterOneWhenThatIsSilent)
   auto older = beacon_;
   older.term = 7;
   older.course.base.number = kOther;
-  watch_.see(older, now_);
+  watch_.see(now_, older);
   EXPECT_TRUE(account().calm()) << "one that is being fenced off";
   now_ += seconds(4);
   hear_all();
@@ -216,8 +220,8 @@ TEST_F(WatchTest, BelievesTheNewerOfTwoCoordinatorsAndALaterOneWhenThatIsSilent)
 TEST_F(WatchTest, KeepsForOneAccountHowLateEachProcessWoke) {
   hear_all();
   for (const int late_ms : {3, 250, 7}) {
-    watch_.see(protocol::Health{"agent 2", "", {}, 0, 0, 0, milliseconds(late_ms)}, now_);
-    watch_.see(protocol::Health{"simulator", "", {}, 0, 0, 0, milliseconds(1)}, now_);
+    watch_.see(now_, protocol::Health{"agent 2", "", {}, 0, 0, 0, milliseconds(late_ms)});
+    watch_.see(now_, protocol::Health{"simulator", "", {}, 0, 0, 0, milliseconds(1)});
   }
   const Account a = account();
   const auto json = nlohmann::json::parse(account_json(a));
@@ -228,7 +232,7 @@ TEST_F(WatchTest, KeepsForOneAccountHowLateEachProcessWoke) {
 
 TEST_F(WatchTest, SpeaksToPeopleAndToPrograms) {
   hear_all();
-  watch_.see(protocol::Health{"agent \"2\"", "line\nbreak", {}, 0, 0, 0}, now_);
+  watch_.see(now_, protocol::Health{"agent \"2\"", "line\nbreak", {}, 0, 0, 0});
   const Account a = account();
   const auto json = nlohmann::json::parse(account_json(a));
   EXPECT_EQ(account_json(a).find('\n'), std::string::npos) << "one line";

@@ -26,41 +26,45 @@ const char* name(FlightPhase phase) {
   return "unknown";
 }
 
-FlightMonitor::FlightMonitor(const std::vector<CarrierId>& carriers, LocalTime now, const FlightPatience& patience)
-    : patience_(patience), begin_(now), simulator_(patience.silence), coordinator_(patience.silence) {
-  for (const CarrierId id : carriers) agents_.emplace(id, Agent{protocol::Liveness(patience.silence), false, {}});
-}
+FlightMonitor::FlightMonitor(const SwarmView& view, const std::vector<CarrierId>& carriers, LocalTime now,
+                             const FlightPatience& patience)
+    : view_(view), carriers_(carriers), patience_(patience), begin_(now) {}
 
-void FlightMonitor::see(const protocol::Beacon& beacon, LocalTime arrived) {
-  coordinator_.heard(arrived);
-  beacon_ = beacon;
-  beacon_arrived_ = arrived;
-  if (plan_.known()) remember_motion();
-}
-
-void FlightMonitor::see(const protocol::AgentStatus& status, LocalTime arrived) {
-  const auto found = agents_.find(status.carrier);
-  if (found == agents_.end()) return;
-  Agent& agent = found->second;
-  agent.heard.heard(arrived);
+void FlightMonitor::look(LocalTime now) {
+  if (view_.coordinator()) plan_.learn(*view_.coordinator());
   if (!plan_.known()) return;
-  const auto& accepted = status.accepted;
-  agent.ready = std::find(accepted.begin(), accepted.end(), plan_.number) != accepted.end();
-  if (status.refused == plan_.number) agent.refusal = status.refusal;
-  if (!all_ready_ && agents_ready() == agents()) all_ready_ = arrived;
+  if (view_.beacon()) remember_motion();
+  if (!all_ready_ && agents_ready() == agents()) all_ready_ = now;
 }
 
-void FlightMonitor::see(const protocol::CarrierState&, LocalTime arrived) {
-  simulator_.heard(arrived);
+const protocol::AgentStatus* FlightMonitor::agent(CarrierId id) const {
+  const auto carrier = view_.carriers().find(id);
+  return carrier == view_.carriers().end() || !carrier->second.agent ? nullptr : &*carrier->second.agent;
+}
+
+bool FlightMonitor::ready(CarrierId id) const {
+  const protocol::AgentStatus* const status = agent(id);
+  if (!status || !plan_.known()) return false;
+  return std::find(status->accepted.begin(), status->accepted.end(), plan_.number) != status->accepted.end();
 }
 
 int FlightMonitor::agents_ready() const {
-  return static_cast<int>(
-      std::count_if(agents_.begin(), agents_.end(), [](const auto& entry) { return entry.second.ready; }));
+  return static_cast<int>(std::count_if(carriers_.begin(), carriers_.end(), [&](CarrierId id) { return ready(id); }));
+}
+
+/// One simulator stands for all vehicles: the last word of any of them.
+std::optional<LocalTime> FlightMonitor::simulator_heard() const {
+  std::optional<LocalTime> last;
+  for (const auto& [id, carrier] : view_.carriers()) last = std::max(last, carrier.vehicle_heard);
+  return last;
+}
+
+bool FlightMonitor::silent(std::optional<LocalTime> heard, LocalTime now) const {
+  return !heard || now - *heard > patience_.silence;
 }
 
 FlightPhase FlightMonitor::phase(LocalTime now) const {
-  if (!coordinator_.ever_heard() || !plan_.known() || !simulator_.ever_heard()) return FlightPhase::kStarting;
+  if (!view_.beacon() || !plan_.known() || !simulator_heard()) return FlightPhase::kStarting;
   switch (place(now)) {
     case Place::kTowardsMotion:
       return FlightPhase::kEngaging;
@@ -81,32 +85,35 @@ FlightPhase FlightMonitor::phase(LocalTime now) const {
 
 Duration FlightMonitor::flown(LocalTime now) const {
   if (!motion_complete_) return Duration::zero();
-  const SwarmTime until = std::min(swarm_time(now), motion_left_.value_or(SwarmTime::max()));
+  const SwarmTime until = std::min(*view_.swarm_time(now), motion_left_.value_or(SwarmTime::max()));
   return std::max(Duration::zero(), until - *motion_complete_);
 }
 
 bool FlightMonitor::under_way(LocalTime now) const {
-  return coordinator_.ever_heard() && place(now) != Place::kRest;
+  return place(now) != Place::kRest;
 }
 
 std::optional<std::string> FlightMonitor::complaint(LocalTime now) const {
-  for (const auto& [id, agent] : agents_) {
-    if (!agent.refusal.empty()) return text("agent %u refuses the motion: ", id) + agent.refusal;
+  for (const CarrierId id : carriers_) {
+    const protocol::AgentStatus* const status = agent(id);
+    if (status && plan_.known() && status->refused == plan_.number) {
+      return text("agent %u refuses the motion: ", id) + status->refusal;
+    }
   }
   const auto waited = [](Duration patience) { return text(" within %.0f s", seconds(patience)); };
   switch (phase(now)) {
     case FlightPhase::kStarting:
       if (now - begin_ <= patience_.starting) return std::nullopt;
-      if (coordinator_.ever_heard() && !plan_.known()) {
+      if (view_.beacon() && !plan_.known()) {
         return "the coordinator did not tell which plan is the mission's" + waited(patience_.starting);
       }
-      return std::string(coordinator_.ever_heard() ? "the simulator" : "the coordinator") + " was not heard" +
+      return std::string(view_.beacon() ? "the simulator" : "the coordinator") + " was not heard" +
              waited(patience_.starting);
     case FlightPhase::kMatching: {
       if (now - begin_ <= patience_.matching) return std::nullopt;
       std::vector<CarrierId> missing;
-      for (const auto& [id, agent] : agents_) {
-        if (!agent.ready) missing.push_back(id);
+      for (const CarrierId id : carriers_) {
+        if (!ready(id)) missing.push_back(id);
       }
       return listed("agent", missing) + " did not accept the motion" + waited(patience_.matching);
     }
@@ -126,25 +133,22 @@ std::optional<std::string> FlightMonitor::complaint(LocalTime now) const {
 }
 
 std::optional<std::string> FlightMonitor::somebody_silent(LocalTime now) const {
-  const std::string silent = text(" silent for more than %.0f s", seconds(patience_.silence));
+  const std::string how = text(" silent for more than %.0f s", seconds(patience_.silence));
   std::vector<CarrierId> agents;
-  for (const auto& [id, agent] : agents_) {
-    if (agent.heard.silent(now)) agents.push_back(id);
+  for (const CarrierId id : carriers_) {
+    const auto carrier = view_.carriers().find(id);
+    if (carrier == view_.carriers().end() || silent(carrier->second.agent_heard, now)) agents.push_back(id);
   }
-  if (coordinator_.silent(now)) return "the coordinator was" + silent;
-  if (simulator_.silent(now)) return "the simulator was" + silent;
-  if (!agents.empty()) return listed("agent", agents) + (agents.size() == 1 ? " was" : " were") + silent;
+  if (silent(view_.beacon_heard().last(), now)) return "the coordinator was" + how;
+  if (silent(simulator_heard(), now)) return "the simulator was" + how;
+  if (!agents.empty()) return listed("agent", agents) + (agents.size() == 1 ? " was" : " were") + how;
   return std::nullopt;
 }
 
-SwarmTime FlightMonitor::swarm_time(LocalTime now) const {
-  return beacon_.swarm_time + (now - beacon_arrived_);
-}
-
 FlightMonitor::Place FlightMonitor::place(LocalTime now) const {
-  if (!plan_.known()) return Place::kRest;
-  const SwarmTime at = swarm_time(now);
-  const protocol::Course& course = beacon_.course;
+  if (!plan_.known() || !view_.beacon()) return Place::kRest;
+  const SwarmTime at = *view_.swarm_time(now);
+  const protocol::Course& course = view_.beacon()->course;
   const auto plans = protocol::plans_of(course);
   if (std::any_of(plans.begin(), plans.end(), [this](const auto& p) { return p != plan_.number; })) {
     return Place::kElsewhere;
@@ -163,7 +167,7 @@ FlightMonitor::Place FlightMonitor::place(LocalTime now) const {
 }
 
 void FlightMonitor::remember_motion() {
-  const protocol::Ramp& last = beacon_.course.pace.ramps.back();
+  const protocol::Ramp& last = view_.beacon()->course.pace.ramps.back();
   if (last.duration > Duration::zero()) transition_duration_ = last.duration;
   if (last.target == 1.0) {
     if (!motion_complete_ || motion_left_) motion_complete_ = last.end();

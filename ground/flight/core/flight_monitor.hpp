@@ -1,16 +1,15 @@
 #pragma once
 // Follows a flight by what its processes say: how far it has come, and what is missing.
 //
-// Pure: told the time, told each message. It decides nothing; ground/flight/flight.cpp acts on what it answers.
+// Pure: it reads the view (swarm/core/swarm_view.hpp), is told the time, and looks after each message, because of some
+// things only the moment tells. It decides nothing; ground/flight/flight.cpp acts on what it answers.
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "common/protocol/liveness.hpp"
-#include "common/protocol/messages.hpp"
 #include "ground/flight/core/mission_plan.hpp"
+#include "ground/swarm/core/swarm_view.hpp"
 
 namespace gyre::ground {
 
@@ -36,15 +35,15 @@ struct FlightPatience {
 
 class FlightMonitor {
  public:
-  FlightMonitor(const std::vector<CarrierId>& carriers, LocalTime now, const FlightPatience& patience = {});
+  /// The view outlives it.
+  FlightMonitor(const SwarmView& view, const std::vector<CarrierId>& carriers, LocalTime now,
+                const FlightPatience& patience = {});
 
-  void see(const protocol::Beacon& beacon, LocalTime arrived);
-  void see(const protocol::CoordinatorStatus& status) { plan_.learn(status); }
-  void see(const protocol::AgentStatus& status, LocalTime arrived);
-  void see(const protocol::CarrierState& state, LocalTime arrived);
+  /// After every message that the view believed.
+  void look(LocalTime now);
 
   [[nodiscard]] FlightPhase phase(LocalTime now) const;
-  [[nodiscard]] int agents() const { return static_cast<int>(agents_.size()); }
+  [[nodiscard]] int agents() const { return static_cast<int>(carriers_.size()); }
   /// Agents that have accepted the motion.
   [[nodiscard]] int agents_ready() const;
   /// Since full pace was reached and until it was left; 0 before.
@@ -58,26 +57,21 @@ class FlightMonitor {
   [[nodiscard]] std::optional<std::string> complaint(LocalTime now) const;
 
  private:
-  struct Agent {
-    protocol::Liveness heard;
-    bool ready = false;
-    std::string refusal;
-  };
   enum class Place { kRest, kTowardsMotion, kMotion, kSlowed, kTowardsRest, kElsewhere };
 
-  [[nodiscard]] SwarmTime swarm_time(LocalTime now) const;
+  [[nodiscard]] const protocol::AgentStatus* agent(CarrierId id) const;
+  [[nodiscard]] bool ready(CarrierId id) const;
+  [[nodiscard]] std::optional<LocalTime> simulator_heard() const;
+  [[nodiscard]] bool silent(std::optional<LocalTime> heard, LocalTime now) const;
   [[nodiscard]] Place place(LocalTime now) const;
   void remember_motion();
   [[nodiscard]] std::optional<std::string> somebody_silent(LocalTime now) const;
 
+  const SwarmView& view_;
+  std::vector<CarrierId> carriers_;
   FlightPatience patience_;
   LocalTime begin_;
-  std::map<CarrierId, Agent> agents_;
-  protocol::Liveness simulator_;
-  protocol::Liveness coordinator_;
   MissionPlan plan_;
-  protocol::Beacon beacon_;
-  LocalTime beacon_arrived_{};
   std::optional<LocalTime> all_ready_;
   std::optional<SwarmTime> motion_complete_;  // end of the ramp to full pace
   std::optional<SwarmTime> motion_left_;      // start of the ramp away from it

@@ -1,40 +1,22 @@
 #pragma once
-// What a swarm has said lately, put into a table for a person.
-//
-// Pure: it is told each message and asked for text.
+// What is seen of a swarm, put into a table for a person.
 
-#include <map>
-#include <optional>
 #include <string>
 
-#include "common/protocol/messages.hpp"
+#include "ground/swarm/core/swarm_view.hpp"
 
 namespace gyre::ground {
 
-class SwarmPicture {
- public:
-  void see(const protocol::CoordinatorStatus& status) { coordinator_ = status; }
-  void see(const protocol::Beacon& beacon) { beacon_ = beacon; }
-  void see(const protocol::AgentStatus& status) { agents_[status.carrier] = status; }
-  void see(const protocol::LoadState& load);
-  void see(const protocol::Health& health) { health_[health.process] = health; }
+/// Everybody the coordinator counts on has been heard, and so has the load.
+[[nodiscard]] bool complete(const SwarmView& view);
 
-  [[nodiscard]] const std::optional<protocol::CoordinatorStatus>& coordinator() const { return coordinator_; }
-  /// Everybody the coordinator counts on has been heard, and so has the load.
-  [[nodiscard]] bool complete() const;
-  [[nodiscard]] std::string table() const;
+/// At a glance: course, wish, load, clocks, each carrier, what was dropped, who complains.
+[[nodiscard]] std::string table(const SwarmView& view, LocalTime now);
 
- private:
-  [[nodiscard]] std::string wish_line() const;
-  [[nodiscard]] std::string load_line() const;
-  [[nodiscard]] std::string clock_line() const;
-  [[nodiscard]] std::string woke_late(const std::string& process) const;
+/// "motion, as a person asked; the pace is 100 %; the lease runs for another 4.8 s"
+[[nodiscard]] std::string wish_line(const protocol::Course& course, SwarmTime now);
 
-  std::optional<protocol::CoordinatorStatus> coordinator_;
-  std::optional<protocol::Beacon> beacon_;
-  std::map<CarrierId, protocol::AgentStatus> agents_;
-  std::optional<protocol::LoadState> load_;
-  std::map<std::string, protocol::Health> health_;
-};
+/// "flying"
+[[nodiscard]] const char* name(protocol::AgentState state);
 
 }  // namespace gyre::ground

@@ -1,0 +1,137 @@
+#include "ground/swarm/core/swarm_view.hpp"
+
+#include <algorithm>
+
+#include "common/protocol/follow.hpp"
+#include "common/protocol/sanity.hpp"
+
+namespace gyre::ground {
+namespace {
+
+/// Names are the sender's to choose: a liar shall not fill the memory. Every agent there can be, and the hubs.
+constexpr std::size_t kMaxProcesses = 128;
+
+bool is_carrier(CarrierId id) {
+  return id >= 1 && id <= kMaxCarrierId;
+}
+
+/// Of a coordinator that leads no longer, while a later one is heard: two may be heard for a moment, as one takes over.
+template <class Word>
+bool is_outdated(const std::optional<Word>& before, const Word& word, const protocol::Liveness& heard, LocalTime now) {
+  return before && word.term < before->term && !heard.silent(now);
+}
+
+}  // namespace
+
+bool SwarmView::step(LocalTime arrived, const SwarmMessage& message) {
+  const bool believed = std::visit([&](const auto& one) { return on(arrived, one); }, message);
+  if (!believed) ++refused_;
+  return believed;
+}
+
+bool SwarmView::on(LocalTime arrived, const protocol::Beacon& beacon) {
+  if (!sane(beacon) || is_outdated(beacon_, beacon, beacon_heard_, arrived)) return false;
+  beacon_ = beacon;
+  beacon_arrived_ = arrived;
+  beacon_heard_.heard(arrived);
+  return true;
+}
+
+bool SwarmView::on(LocalTime arrived, const protocol::CoordinatorStatus& status) {
+  if (is_outdated(coordinator_, status, coordinator_heard_, arrived)) return false;
+  coordinator_ = status;
+  coordinator_heard_.heard(arrived);
+  return true;
+}
+
+bool SwarmView::on(LocalTime arrived, const protocol::AgentStatus& status) {
+  if (!is_carrier(status.carrier) || !sane(status)) return false;
+  CarrierView& carrier = carriers_[status.carrier];
+  if (!carrier.agents.believes(arrived, status.incarnation)) return false;
+  carrier.agent = status;
+  carrier.agent_heard = arrived;
+  return true;
+}
+
+bool SwarmView::on(LocalTime /*arrived*/, const protocol::HeldPlans& held) {
+  if (!is_carrier(held.carrier) || !sane(held)) return false;
+  auto& slices = carriers_[held.carrier].slices;
+  slices.clear();
+  for (const protocol::NumberedSlice& entry : held.slices) slices[entry.number] = entry.slice;
+  return true;
+}
+
+bool SwarmView::on(LocalTime arrived, const protocol::CarrierState& state) {
+  if (!is_carrier(state.carrier) || !sane(state)) return false;
+  CarrierView& carrier = carriers_[state.carrier];
+  if (!carrier.vehicles.believes(arrived, state.incarnation)) return false;
+  carrier.vehicle = state;
+  carrier.vehicle_heard = arrived;
+  return true;
+}
+
+bool SwarmView::on(LocalTime arrived, const protocol::LoadState& load) {
+  if (!sane(load) || !loads_.believes(arrived, load.incarnation)) return false;
+  load_ = load;
+  return true;
+}
+
+bool SwarmView::on(LocalTime arrived, const protocol::Health& health) {
+  if (processes_.size() >= kMaxProcesses && processes_.count(health.process) == 0) return false;
+  ProcessView& process = processes_[health.process];
+  process.word = health;
+  process.heard.heard(arrived);
+  return true;
+}
+
+bool SwarmView::on(LocalTime arrived, const protocol::MissionText& mission) {
+  if (is_outdated(mission_, mission, coordinator_heard_, arrived)) return false;
+  mission_ = mission;
+  return true;
+}
+
+bool SwarmView::on(LocalTime /*arrived*/, const protocol::Command& /*command*/) {
+  return true;  // what comes of it is seen in the course
+}
+
+bool SwarmView::on(LocalTime /*arrived*/, const protocol::CommandReply& /*reply*/) {
+  return true;
+}
+
+std::optional<SwarmTime> SwarmView::swarm_time(LocalTime now) const {
+  if (!beacon_) return std::nullopt;
+  return beacon_->swarm_time + (now - beacon_arrived_);
+}
+
+bool SwarmView::named_silent(CarrierId carrier) const {
+  if (!coordinator_) return false;
+  const auto& silent = coordinator_->silent;
+  return std::find(silent.begin(), silent.end(), carrier) != silent.end();
+}
+
+std::vector<CarrierId> SwarmView::carrier_ids() const {
+  if (coordinator_) return coordinator_->carriers;
+  std::vector<CarrierId> ids;
+  for (const auto& [id, carrier] : carriers_) ids.push_back(id);
+  return ids;
+}
+
+std::optional<mechanics::Reference> SwarmView::planned(CarrierId carrier, SwarmTime at) const {
+  const auto found = carriers_.find(carrier);
+  if (!beacon_ || found == carriers_.end()) return std::nullopt;
+  const auto& slices = found->second.slices;
+  return protocol::reference(beacon_->course, at, [&](const protocol::PlanNumber& number) {
+    const auto slice = slices.find(number);
+    return slice == slices.end() ? nullptr : &slice->second;
+  });
+}
+
+std::map<std::string, std::string> SwarmView::complaints(LocalTime now) const {
+  std::map<std::string, std::string> complaints;
+  for (const auto& [name, process] : processes_) {
+    if (!process.word.complaint.empty() && !process.heard.silent(now)) complaints[name] = process.word.complaint;
+  }
+  return complaints;
+}
+
+}  // namespace gyre::ground

@@ -215,9 +215,9 @@ void Node::Impl::record(const std::function<void(RecordedSample)>& handler, std:
   set_common(qos, description.delivery, kRecordingDepth);
   auto listener = std::make_unique<RecordingListener>(
       handler, RecordedTopic{topic_name(description, carrier), description.type, description.delivery});
-  fast::api::DataReader* reader = participant.subscriber().create_datareader(
-      topic<Message, RawType<typename Wire<Message>::Support>>(carrier), qos, listener.get(),
-      fast::api::StatusMask::data_available());
+  fast::api::DataReader* reader =
+      participant.subscriber().create_datareader(topic<Message, RawType<typename Wire<Message>::Support>>(carrier), qos,
+                                                 listener.get(), fast::api::StatusMask::data_available());
   GYRE_ENSURE(reader, "Fast DDS gives a reader for our own quality of service");
   readers.push_back(reader);
   listeners.push_back(std::move(listener));

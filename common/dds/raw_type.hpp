@@ -1,9 +1,9 @@
 #pragma once
 // A generated type support that leaves a sample's bytes as they are.
 //
-// Fast DDS knows one type support per type name and participant, so a node that records cannot read the same messages as
-// well: who needs both decodes the bytes (payload.hpp). The generated support stays underneath, for its bound: what is
-// longer than the type can be is refused before it is kept.
+// Fast DDS knows one type support per type name and participant, so a node that records cannot read the same messages
+// as well: who needs both decodes the bytes (payload.hpp). The generated support stays underneath, for its bound: what
+// is longer than the type can be is refused before it is kept.
 
 #include <atomic>
 #include <cstdint>

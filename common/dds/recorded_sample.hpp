@@ -27,8 +27,8 @@ struct RecordedSample {
   std::vector<std::uint8_t> payload;  ///< CDR, with the four bytes that say which
 };
 
-/// Room in a recorder's reader. Samples are taken as they come, so this is for what arrives together, of many writers on
-/// one topic; memory is set aside only when it is needed.
-inline constexpr int kRecordingDepth = 512;
+/// Room in a recorder's reader. Samples are taken as they come, so this is for what arrives together, of many writers
+/// on one topic; memory is set aside only when it is needed.
+inline constexpr int kRecordingDepth = 256;
 
 }  // namespace gyre::dds

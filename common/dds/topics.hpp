@@ -50,10 +50,10 @@ template <> inline constexpr Topic kTopic<protocol::Health>       {"health",    
 // clang-format on
 
 /// All that have a topic: what is in here is recorded, too.
-using EveryMessage =
-    std::tuple<protocol::Beacon, protocol::PlanOffer, protocol::HeldPlans, protocol::TimeRequest, protocol::TimeReply,
-               protocol::AgentStatus, protocol::Setpoint, protocol::CarrierState, protocol::LoadState, protocol::Command,
-               protocol::CommandReply, protocol::CoordinatorStatus, protocol::MissionText, protocol::Health>;
+using EveryMessage = std::tuple<protocol::Beacon, protocol::PlanOffer, protocol::HeldPlans, protocol::TimeRequest,
+                                protocol::TimeReply, protocol::AgentStatus, protocol::Setpoint, protocol::CarrierState,
+                                protocol::LoadState, protocol::Command, protocol::CommandReply,
+                                protocol::CoordinatorStatus, protocol::MissionText, protocol::Health>;
 
 [[nodiscard]] constexpr bool reliable(Delivery delivery) {
   return delivery != Delivery::kNewest && delivery != Delivery::kFromMany;

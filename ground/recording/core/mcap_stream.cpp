@@ -93,9 +93,13 @@ void McapStream::take(const RecordHead& head, std::uint64_t place) {
     case Opcode::kDataEnd:
       end_of_data(content);
       return;
-    case Opcode::kFooter:
-      whole_ = true;  // a file without a data end is one of an older writer
+    case Opcode::kFooter:  // before a data end: of a file without one
       over_ = true;
+      whole_ = head.length == kFooterBytes && source_->size() - at_ == kMcapMagic.size();
+      if (!whole_) problems_.add(place, "the file's end is said to be here, and more follows: the file is damaged");
+      if (whole_ && content.number<std::uint64_t>() != 0) {
+        problems_.add(place, "the data's end is not marked: the file is damaged, or its writer left it out");
+      }
       return;
     default:
       break;
@@ -104,9 +108,10 @@ void McapStream::take(const RecordHead& head, std::uint64_t place) {
 }
 
 void McapStream::end_of_data(ByteReader content) {
+  over_ = true;
+  if (content.left() != 4) return problems_.add(at_, "the end of the data is no such record: the file is damaged");
   const auto expected = content.number<std::uint32_t>();
   whole_ = true;
-  over_ = true;
   if (all_read_ && expected != 0 && expected != crc_) {
     problems_.add(at_, "the checksum of all that was recorded is wrong: bytes were changed after they were written");
   }

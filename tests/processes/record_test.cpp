@@ -1,13 +1,13 @@
 // `gyre record` beside real flights: ended in order, killed, and on a disk that is full.
 
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "tests/processes/launched.hpp"
+#include "tests/recording/judge.hpp"
 #include "tests/recording/said_of.hpp"
 
 namespace gyre::test {
@@ -47,13 +47,7 @@ class RecordTest : public ProgramsTest {
 bool judged_by_others(const std::string& path, const json& said) {
   const std::string said_path = path + ".json";
   std::ofstream(said_path) << said.dump();
-  const std::string command = std::string(GYRE_SOURCE_DIR) + "/tests/recording/judge/run " + GYRE_BIN_DIR +
-                              "/../tests/judge " + path + " " + said_path;
-  const int status = std::system(command.c_str());
-  constexpr int kSkipped = 77;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kSkipped) return false;
-  EXPECT_EQ(status, 0) << "see above";
-  return true;
+  return tests::judged("judge.mjs", path + " " + said_path);
 }
 
 TEST_F(RecordTest, AFlightIsRecordedAndAKilledRecorderLosesItsLastSecondOnly) {

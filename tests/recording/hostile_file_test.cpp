@@ -128,6 +128,7 @@ TEST(HostileFile, ASummaryThatPointsNowhereIsRefused) {
 TEST(HostileFile, AnIndexThatPointsNowhereIsSaidAndPassedOver) {
   Bytes bytes = beginning();
   const std::uint64_t summary = bytes.size();
+  ground::write(bytes, ground::Channel{1, 0, "/a", "cdr", {}});
   ground::ChunkIndex index;
   index.offset = 3;
   index.length = 40;

@@ -69,6 +69,12 @@ Result<McapIndex> McapIndex::open(const McapSource& source) {
   }
   McapIndex index(source);
   if (auto wrong = index.read_summary(summary, end)) return *wrong;
+  // What the summary does not lead to would be missing without a word.
+  const bool none = index.statistics_ && index.statistics_->messages == 0;
+  const bool all = index.statistics_ ? index.chunks_.size() == index.statistics_->chunks : true;
+  if (!none && (index.chunks_.empty() || !all || index.directory_.channels().empty())) {
+    return at(summary, "the summary does not lead to all messages; read from the front they are there");
+  }
   return index;
 }
 

@@ -10,7 +10,13 @@ namespace {
 
 using Level = Notice::Level;
 
-std::string words(const protocol::Command& command) {
+std::string agent_name(CarrierId id) {
+  return text("agent %u", id);
+}
+
+}  // namespace
+
+std::string order_words(const protocol::Command& command) {
   switch (command.kind) {
     case protocol::CommandKind::kEngage:
       return "engage";
@@ -25,12 +31,6 @@ std::string words(const protocol::Command& command) {
   }
   return "something";
 }
-
-std::string agent_name(CarrierId id) {
-  return text("agent %u", id);
-}
-
-}  // namespace
 
 void Happenings::tell(LocalTime now, Level level, const std::string& who, const std::string& text) {
   all_.push_back({++last_number_, view_.swarm_time(now), level, who, text});
@@ -108,7 +108,7 @@ void Happenings::on(LocalTime now, const protocol::Health& health) {
 void Happenings::on(LocalTime now, const protocol::Command& command) {
   if (command.id == command_) return;
   command_ = command.id;
-  tell(now, Level::kInfo, "a person", "asks: " + words(command));
+  tell(now, Level::kInfo, "a person", "asks: " + order_words(command));
 }
 
 void Happenings::on(LocalTime now, const protocol::CommandReply& reply) {

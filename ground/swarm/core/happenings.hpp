@@ -25,6 +25,9 @@ struct Happening {
   std::string text;
 };
 
+/// "pace 0.5", "release, to rest at 90 degrees"
+[[nodiscard]] std::string order_words(const protocol::Command& command);
+
 class Happenings {
  public:
   static constexpr std::size_t kKept = 500;

@@ -136,25 +136,27 @@ void Merge::begin(SwarmTime now, const Command& flown, const Path& path) {
 }
 
 void Merge::begin_at_vehicle(SwarmTime now, Duration age, Command told, const Path& path) {
-  SwarmTime then = now - age;
-  Command reference = find_delay(then, told, path);
-  const Eigen::Vector3d velocity = reference.position_w_m.first;
+  const Command present = path.at(now - age);
+  const Eigen::Vector3d& velocity = present.position_w_m.first;
   const auto along = [&](const Eigen::Vector3d& v) {
     const double share = velocity.dot(v) / velocity.squaredNorm();
     return std::isfinite(share) ? share : 0.0;  // a path may stand still
   };
   const double share = std::clamp(along(told.position_w_m.first), 0.0, 1.0);
   if (share > 0.5) {
-    const double late_s = std::clamp(along(told.position_w_m.value - reference.position_w_m.value), -kOnItsWay_s, 0.0);
-    then += from_seconds(late_s);
-    reference = find_delay(then, told, path);
+    const double ahead_s = along(told.position_w_m.value - present.position_w_m.value);
+    age += from_seconds(std::clamp(-ahead_s, 0.0, kOnItsWay_s));
   }
+  const Command reference = find_delay(now - age, told, path);
   told.position_w_m.second = share * share * reference.position_w_m.second;
   told.winch_m.second = share * share * reference.winch_m.second;
-  // What gap there is has grown since then.
-  const double since_s = seconds(now - then);
-  told.position_w_m.value += since_s * (told.position_w_m.first - reference.position_w_m.first);
-  told.winch_m.value += since_s * (told.winch_m.first - reference.winch_m.first);
+  // What gap and delay there are have grown since then.
+  told.position_w_m.value += seconds(age) * (told.position_w_m.first - reference.position_w_m.first);
+  told.winch_m.value += seconds(age) * (told.winch_m.first - reference.winch_m.first);
+  if (delay_time_ > Duration::zero()) {
+    delay_.delay_s += seconds(age) * delay_.rate;
+    delay_time_ = delay_time(delay_.delay_s);
+  }
   start_ = now;
   close(told, reference);
 }

@@ -52,11 +52,19 @@ export class Commands {
 
   /** Until a person moves it, the slider stands where the swarm is. */
   private follow_pace(): void {
+    this.mark_next();
     const pace = this.swarm.frame?.pace ?? 0;
     if (this.touched || document.activeElement === this.pace) return;
     const value = String(Math.round(pace * 100));
     if (this.pace.value !== value) this.pace.value = value;
     say(found('pace-shown'), this.wanted());
+  }
+
+  /** What a person will most likely want next stands out. */
+  private mark_next(): void {
+    const rests = (this.swarm.frame?.pace ?? 0) < 0.5;
+    this.engage.button.classList.toggle('main', rests);
+    this.release.button.classList.toggle('main', !rests);
   }
 
   private wanted(): string {

@@ -72,9 +72,10 @@ export class Header {
     mark(found('connection'), 'data-state', words);
     const skew = this.time.skew;
     const parts: string[] = [];
-    if (skew !== undefined) parts.push(`this page: ±${seconds(skew.uncertainty_s)} to the server`);
-    if (online && this.swarm.frame !== undefined) parts.push(`picture ${seconds(this.swarm.playback.behind_s(now))} behind`);
+    if (skew !== undefined) parts.push(`page ± ${seconds(skew.uncertainty_s)}`);
+    if (online && this.swarm.frame !== undefined) parts.push(`${this.swarm.playback.behind_s(now).toFixed(1)} s behind`);
     say(found('skew'), parts.join(' · '));
+    found('skew').title = "How surely this page knows the server's time, and how far its picture is behind it";
     const domain = hello === undefined ? '' : `domain ${hello.domain}`;
     say(found('mission-more'), [mission?.plan ? `plan ${mission.plan}` : '', domain].filter(Boolean).join(' · '));
   }

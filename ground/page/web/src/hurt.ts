@@ -42,7 +42,8 @@ export class HurtPanel {
     const shown = [...this.who.options].map((option) => option.value);
     if (names.join() !== shown.join())
       this.who.replaceChildren(...names.map((name) => element('option', { text: name, attributes: { value: name } })));
-    const wanted = names.includes(this.swarm.process) ? this.swarm.process : names.includes(this.who.value) ? this.who.value : names[0];
+    const usual = processes.find((process) => process.carrier !== 0)?.name ?? names[0];
+    const wanted = names.includes(this.swarm.process) ? this.swarm.process : names.includes(this.who.value) && this.swarm.process === '' && shown.length > 0 ? this.who.value : usual;
     if (wanted !== undefined && this.who.value !== wanted) this.who.value = wanted;
     for (const process of processes) {
       const option = [...this.who.options].find((candidate) => candidate.value === process.name);

@@ -50,11 +50,12 @@ export class Inset {
     const height = this.canvas.clientHeight;
     if (side === 0 || height === 0) return;
     const density = Math.min(2, window.devicePixelRatio);
-    if (this.canvas.width !== Math.round(side * density)) {
+    if (this.canvas.width !== Math.round(side * density) || this.canvas.height !== Math.round(height * density)) {
       this.canvas.width = Math.round(side * density);
       this.canvas.height = Math.round(height * density);
     }
-    const paint = this.canvas.getContext('2d');
+    // Such a canvas stays with the processor, which for so small a drawing is quicker than to ask the graphics card.
+    const paint = this.canvas.getContext('2d', { willReadFrequently: true });
     if (paint === null) return;
     paint.setTransform(density, 0, 0, density, 0, 0);
     paint.clearRect(0, 0, side, height);

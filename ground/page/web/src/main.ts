@@ -16,6 +16,9 @@ import { Swarm } from './swarm';
 import { Theme } from './theme';
 import { TimeSync } from './time_sync';
 
+// #quality=best, besides the token: as beautiful as it gets, however slow, for pictures of the page.
+const held = new URLSearchParams(location.hash.slice(1)).get('quality') === 'best';
+
 const swarm = new Swarm();
 const theme = new Theme();
 const connection = new Connection(swarm);
@@ -24,7 +27,7 @@ connection.begin();  // first, so that the others know whether there is a token
 
 const log = new Log(swarm);
 new Header(swarm, time);
-const stage = Stage.begin(swarm, theme);
+const stage = Stage.begin(swarm, theme, held);
 new Inset(swarm, theme);
 new Plots(swarm, theme);
 new Processes(swarm, theme);

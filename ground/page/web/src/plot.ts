@@ -58,8 +58,15 @@ export function reach(picture: Picture, logarithmic: boolean): { min: number; ma
   const span = Math.max(max - min, 1e-3 * Math.max(Math.abs(max), Math.abs(min)), 1e-9);
   for (const bound of picture.bounds)
     if (bound.value > min - kNear * span && bound.value < max + kNear * span) take(bound.value);
-  const margin = 0.06 * Math.max(max - min, span);
+  const margin = 0.1 * Math.max(max - min, span);
   return { min: min - margin, max: max + margin };
+}
+
+/** One line for each power of ten; those between tell nothing in so small a plot. */
+function decades(_: uPlot, __: number, min: number, max: number): number[] {
+  const out: number[] = [];
+  for (let power = Math.ceil(Math.log10(min) - 1e-6); power <= Math.log10(max) + 1e-6; ++power) out.push(10 ** power);
+  return out;
 }
 
 function figure(value: number): string {
@@ -157,8 +164,8 @@ export class Plot {
           },
         },
         axes: [
-          { ...axis, size: 20, gap: 3, splits: () => [-60, -40, -20, 0], values: (_, at) => at.map((t) => (t === 0 ? 'now' : `${t} s`)) },
-          { ...axis, size: 46, gap: 4, space: 26, values: (_, at) => at.map((value) => (value === null ? '' : figure(value))) },
+          { ...axis, size: 20, gap: 3, splits: () => [-45, -30, -15, 0], values: (_, at) => at.map((t) => (t === 0 ? 'now' : `${t} s`)) },
+          { ...axis, size: 46, gap: 4, space: 26, ...(logarithmic ? { splits: decades } : {}), values: (_, at) => at.map((value) => (value === null ? '' : figure(value))) },
         ],
         hooks: {
           drawClear: [(chart) => this.draw_bands(chart)],
@@ -193,26 +200,32 @@ export class Plot {
     const paint = chart.ctx;
     const density = window.devicePixelRatio;
     paint.save();
-    paint.strokeStyle = css_color('bad');
     paint.fillStyle = css_color('bad');
-    paint.lineWidth = density;
     paint.font = `${10 * density}px system-ui, sans-serif`;
-    paint.textAlign = 'right';
+    paint.textAlign = 'left';
+    const write = (words: string, y: number): void => {
+      paint.lineWidth = 3 * density;
+      paint.strokeStyle = css_color('sheet');
+      paint.setLineDash([]);
+      paint.strokeText(words, left + 4 * density, y);
+      paint.fillText(words, left + 4 * density, y);
+    };
     for (const bound of this.picture?.bounds ?? []) {
       if (!Number.isFinite(bound.value) || (this.kind.logarithmic && bound.value <= 0)) continue;
       const y = chart.valToPos(bound.value, 'y', true);
       const words = `${bound.what} ${figure(bound.value)}`;
-      const right = left + width - 4 * density;
-      if (y < top) paint.fillText(`${words} ↑`, right, top + 10 * density);
-      else if (y > top + height) paint.fillText(`${words} ↓`, right, top + height - 4 * density);
+      if (y < top) write(`${words} ↑`, top + 10 * density);
+      else if (y > top + height) write(`${words} ↓`, top + height - 4 * density);
       else {
+        paint.lineWidth = density;
+        paint.strokeStyle = css_color('bad');
         paint.setLineDash([5 * density, 4 * density]);
         paint.beginPath();
         paint.moveTo(left, y);
         paint.lineTo(left + width, y);
         paint.stroke();
         const below = y < top + 14 * density;
-        paint.fillText(words, right, below ? y + 11 * density : y - 4 * density);
+        write(words, below ? y + 11 * density : y - 4 * density);
       }
     }
     paint.restore();

@@ -95,7 +95,7 @@ export class Processes {
     const cells = { name: label } as unknown as Record<Column, HTMLElement>;
     const line = element('tr', {}, element('th', { attributes: { scope: 'row' } }, button));
     for (const column of kColumns.slice(1)) {
-      const cell = element('td', { class: column });
+      const cell = element('td', { class: `cell-${column}` });
       cells[column] = cell;
       line.append(cell);
     }

@@ -29,6 +29,13 @@ export function carrier_dash(index: number): readonly number[] {
   return kDashes[Math.floor(index / kCarriers.length) % kDashes.length]!;
 }
 
+/** Ink that is read on a tone: white, or the dark paper. */
+export function written_on(tone: string): string {
+  const [r, g, b] = rgb(tone).map((c) => (c / 255) ** 2.2) as unknown as Rgb;
+  const light = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  return 1.05 / (light + 0.05) > (light + 0.05) / 0.056 ? '#ffffff' : '#0d1117';
+}
+
 export type Rgb = readonly [number, number, number];
 
 export function rgb(hex: string): Rgb {

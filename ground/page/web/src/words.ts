@@ -95,7 +95,7 @@ function behind(situation: Situation): string {
   if (frame !== undefined && frame.carriers.length > 0) {
     const speeds = frame.carriers.filter((carrier) => carrier.heard).map((carrier) => carrier.speed_m_s);
     const flying = counted(frame.carriers.length, 'carrier');
-    parts.push(frame.pace < kRest ? `${flying}, standing` : `${flying} never stopping, at ${spread(speeds, 'm/s')}`);
+    parts.push(frame.pace < kRest ? `${flying}, standing` : `${flying} never stop${frame.carriers.length === 1 ? 's' : ''}: ${spread(speeds, 'm/s')}`);
   }
   if (status !== undefined && status.displacement_max_m > 0)
     parts.push(`${millimetres(status.displacement_max_m)} at most since the motion began`);

@@ -34,10 +34,11 @@ const hello = {
   mission_file: 'mock.textproto',
 };
 const agents = mission.carriers.map((carrier) => `agent ${carrier.id}`);
-const states = new Map(['coordinator', 'simulator', ...agents].map((name) => [name, { state: name === 'coordinator' ? 'healthy' : 'flying', pid: 0, loss: 0 }]));
+const states = new Map(['coordinator', 'simulator', ...agents].map((name) => [name, { state: name.startsWith('agent') ? 'flying' : 'healthy', pid: 0, loss: 0 }]));
 [...states.values()].forEach((state, i) => (state.pid = 4200 + i));
 if (words.includes('--waiting')) for (const name of agents) states.get(name).state = 'ready';
 let hurt = { number: '0', text: '', at_s: 0, before_m: 0, moved_max_m: 0, calm_s: -1 };
+let most_m = 0;
 const happenings = [];
 const listeners = new Set();
 
@@ -73,6 +74,7 @@ function status() {
   const processes = [...states].map(([name, entry]) => worded(name, entry));
   const unwell = processes.find((process) => !process.well);
   const moved = Math.hypot(...swarm.displacement());
+  most_m = Math.max(most_m, moved);
   hurt.moved_max_m = Math.max(hurt.moved_max_m, moved);
   if (hurt.calm_s < 0 && unwell === undefined && moved < 1e-4 && server_time_s() - hurt.at_s > 1) hurt.calm_s = server_time_s() - hurt.at_s;
   const waits = words.includes('--waiting') && swarm.wanted === 0;
@@ -81,7 +83,7 @@ function status() {
     course: swarm.pace === swarm.wanted ? (swarm.pace > 0 ? 'motion' : 'rest') : `${swarm.pace < swarm.wanted ? 'rest -> motion' : 'motion -> rest'} (${Math.round(swarm.pace * 100)} %)`,
     wish: '', news: '', term: '1', lease_left_s: 4.9, skew_s: 4e-5, skew_budget_s: 0.002, processes,
     missing: waits ? [{ who: 'agent 3', what: 'its clock is not yet sure' }, { who: 'vehicle 2', what: 'was not heard' }] : [],
-    displacement_max_m: 4.1e-6, rotation_max_deg: 0.0001,
+    displacement_max_m: most_m, rotation_max_deg: 0.0001,
     hurt: { number: hurt.number, text: hurt.text, since_s: server_time_s() - hurt.at_s, before_m: hurt.before_m, moved_max_m: hurt.moved_max_m, calm_after_s: hurt.calm_s },
   };
 }
@@ -162,7 +164,7 @@ createServer((request, reply) => {
   if (request.method === 'POST') return asked(request, reply);
   if (request.url === '/api/events') return stream(reply);
   if (request.url === '/api/time') return answer(reply, 200, { server_time_s: server_time_s() });
-  if (request.url !== '/') return answer(reply, 404, { done: false, text: 'there is no such page' });
+  if (request.url.split('?')[0] !== '/') return answer(reply, 404, { done: false, text: 'there is no such page' });
   reply.writeHead(200, { 'Content-Type': 'text/html; charset=utf-8', 'Content-Encoding': 'gzip', 'Content-Security-Policy': policy });
   reply.end(page);
 }).listen(Number(option('port', '8480')), '127.0.0.1', function () {

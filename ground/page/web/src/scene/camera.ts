@@ -7,7 +7,7 @@ import { is_still } from '../dom';
 import type { Extent, Triple } from './geometry';
 
 const kAzimuth = (-62 * Math.PI) / 180;
-const kElevation = (17 * Math.PI) / 180;
+const kElevation = (25 * Math.PI) / 180;
 const kWay_s = 0.6;
 
 interface Way {
@@ -23,6 +23,7 @@ export class Camera {
   private extent: Extent | undefined;
   private followed: Triple | undefined;
   private height = 1;
+  private free = 1;  // width of what is not covered, over the height
 
   constructor(canvas: HTMLElement) {
     this.eye.up.set(0, 0, 1);
@@ -34,9 +35,12 @@ export class Camera {
     this.controls.addEventListener('start', () => (this.way = undefined));
   }
 
-  resize(width: number, height: number): void {
+  /** `taken`: so many pixels on the left are covered; the scene moves into the middle of the others. */
+  resize(width: number, height: number, taken: number): void {
     this.height = height;
+    this.free = (width - taken) / Math.max(1, height);
     this.eye.aspect = width / Math.max(1, height);
+    this.eye.setViewOffset(width, height, -taken / 2, 0, width, height);
     this.eye.updateProjectionMatrix();
   }
 
@@ -67,8 +71,8 @@ export class Camera {
     const extent = this.extent;
     if (extent === undefined) return;
     const half = (this.eye.fov * Math.PI) / 360;
-    const narrow = Math.atan(Math.tan(half) * Math.min(1, this.eye.aspect));
-    const distance = (extent.radius * 0.99) / Math.sin(narrow);
+    const narrow = Math.atan(Math.tan(half) * Math.min(1, this.free));
+    const distance = (extent.radius * 0.9) / Math.sin(narrow);
     const target = new three.Vector3(extent.center[0], extent.center[1], extent.center[2] - 0.06 * extent.radius);
     const level = Math.cos(elevation) * distance;
     const eye = new three.Vector3(Math.cos(azimuth) * level, Math.sin(azimuth) * level, Math.sin(elevation) * distance).add(target);

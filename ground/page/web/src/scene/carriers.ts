@@ -13,18 +13,19 @@ import type { Extent } from './geometry';
 import type { CarrierPose, Pose } from './pose';
 import { Ribbons } from './ribbons';
 
-const kTrailOfPeriod = 0.42;
+const kTrailOfPeriod = 0.55;
 const kTrailMost_s = 14;
 
-function disc(): three.BufferGeometry {
-  const rim = new three.TorusGeometry(1, 0.085, 8, 40);
-  const hub = new three.SphereGeometry(0.3, 16, 12);
+/** Coarser where there are many: each is small then, and there are processors that draw. */
+function disc(many: boolean): three.BufferGeometry {
+  const rim = new three.TorusGeometry(1, 0.085, many ? 4 : 6, many ? 20 : 40);
+  const hub = new three.SphereGeometry(0.3, many ? 8 : 14, many ? 6 : 10);
   const arms = [0, 1].map((i) => {
     const arm = new three.BoxGeometry(2, 0.1, 0.1);
     arm.rotateZ((i * Math.PI) / 2 + Math.PI / 4);
     return arm;
   });
-  const parts = [rim, hub, ...arms].map((part) => (part.index === null ? part : part.toNonIndexed()));
+  const parts = [rim, hub, ...arms];
   const whole = mergeGeometries(parts);
   parts.forEach((part) => part.dispose());
   return whole;
@@ -54,24 +55,25 @@ export class Carriers {
     this.trails?.dispose();
     this.orbits?.dispose();
     const count = ids.length;
+    const many = count > 16;
     const told = new Map(mission?.carriers.map((carrier) => [carrier.id, carrier.radius_m]));
     const usual = Math.min(0.055, 0.2 / Math.sqrt(Math.max(1, count))) * extent.radius;
     this.radii = ids.map((id) => (told.get(id) ?? 0) || usual);
-    this.bodies = new three.InstancedMesh(disc(), new three.MeshLambertMaterial(), count);
+    this.bodies = new three.InstancedMesh(disc(many), new three.MeshLambertMaterial(), count);
     this.bodies.castShadow = true;
     const glass = { transparent: true, depthWrite: false, side: three.DoubleSide };
-    this.planes = new three.InstancedMesh(new three.CircleGeometry(1, 40), new three.MeshBasicMaterial({ ...glass, opacity: 0.22 }), count);
-    this.ghosts = new three.InstancedMesh(new three.TorusGeometry(1.42, 0.035, 6, 40), new three.MeshBasicMaterial({ ...glass, opacity: 0.5 }), count);
+    this.planes = new three.InstancedMesh(new three.CircleGeometry(1, many ? 20 : 40), new three.MeshBasicMaterial({ ...glass, opacity: 0.22 }), count);
+    this.ghosts = new three.InstancedMesh(new three.TorusGeometry(1.42, 0.035, 4, many ? 20 : 40), new three.MeshBasicMaterial({ ...glass, opacity: 0.5 }), count);
     for (const mesh of [this.bodies, this.planes, this.ghosts]) mesh.frustumCulled = false;
-    const points = count > 16 ? 40 : 96;
+    const points = many ? 40 : 96;
     const period_s = mission !== undefined && mission.period_s > 0 ? mission.period_s : 20;
     this.step_s = Math.min(kTrailMost_s, kTrailOfPeriod * period_s) / points;
-    this.trails = new Ribbons(count, points, { width: count > 16 ? 2.5 : 4, opacity: 0.85 });
+    this.trails = new Ribbons(count, points, { width: many ? 3 : 6, opacity: 0.8 });
     this.paths = ids.map(() => new Float32Array(0));
     this.trailed_s = -Infinity;
     const orbits = ids.map((id) => mission?.carriers.find((carrier) => carrier.id === id)?.orbit_w_m ?? []);
     const longest = Math.max(2, ...orbits.map((orbit) => orbit.length / 3 + 1));
-    this.orbits = new Ribbons(count, longest, { width: 1.1, opacity: 0.5 });
+    this.orbits = new Ribbons(count, longest, { width: 1.1, opacity: 0.4 });
     orbits.forEach((orbit, i) => this.orbits!.lay(i, [...orbit, ...orbit.slice(0, 3)]));
     this.group.add(this.orbits.mesh, this.trails.mesh, this.bodies, this.ghosts, this.planes);
   }
@@ -83,7 +85,7 @@ export class Carriers {
       const weight = shows(i) ? 1 : 0.25;
       this.color.set(tone);
       for (const mesh of [this.bodies, this.planes, this.ghosts]) mesh.setColorAt(i, this.color);
-      this.trails?.paint(i, rgb(tone), (share) => weight * share * share);
+      this.trails?.paint(i, rgb(tone), (share) => weight * share ** 1.6);
       this.orbits?.paint(i, rgb(tone), () => weight);
     });
     for (const mesh of [this.bodies, this.planes, this.ghosts])

@@ -35,10 +35,11 @@ export class Labels {
     });
   }
 
-  paint(index: number, tone: string, weight: 'full' | 'faint', bad: boolean): void {
+  paint(index: number, tone: string, ink: string, weight: 'full' | 'faint', bad: boolean): void {
     const label = this.labels[index];
     if (label === undefined) return;
     label.box.style.setProperty('--tone', tone);
+    label.box.style.setProperty('--on-tone', ink);
     mark(label.box, 'data-weight', weight);
     mark(label.box, 'data-bad', String(bad));
   }
@@ -63,6 +64,16 @@ export class Labels {
     const spot = at === undefined ? undefined : this.spot(at, camera, size);
     show(box, spot !== undefined);
     if (spot !== undefined) box.style.transform = `translate(${spot.x.toFixed(1)}px, ${spot.y.toFixed(1)}px)`;
+  }
+
+  /** Beneath all of these points, wherever one looks from. */
+  put_below(box: HTMLElement, points: Triple[], camera: three.Camera, size: { width: number; height: number }): void {
+    const spots = points.map((point) => this.spot(point, camera, size)).filter((spot) => spot !== undefined);
+    show(box, spots.length > 0);
+    if (spots.length === 0) return;
+    const lowest = spots.reduce((low, spot) => (spot.y > low.y ? spot : low));
+    const x = (Math.min(...spots.map((spot) => spot.x)) + Math.max(...spots.map((spot) => spot.x))) / 2;
+    box.style.transform = `translate(${x.toFixed(1)}px, ${lowest.y.toFixed(1)}px)`;
   }
 
   private spot(at: Triple, camera: three.Camera, size: { width: number; height: number }): { x: number; y: number } | undefined {

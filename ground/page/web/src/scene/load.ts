@@ -3,11 +3,13 @@
 import * as three from 'three';
 import type { Mission } from '../messages';
 import { css_color } from '../dom';
-import type { Extent } from './geometry';
+import { placed } from './geometry';
+import type { Extent, Triple } from './geometry';
 import type { Pose } from './pose';
 
 export class Load {
   readonly group = new three.Group();
+  private hull: Triple[] = [];  // its corners, in the body
   private readonly body = new three.MeshLambertMaterial({ flatShading: true });
   private readonly edges = new three.LineBasicMaterial({ transparent: true, opacity: 0.55 });
   private readonly dots = new three.MeshBasicMaterial();
@@ -18,6 +20,8 @@ export class Load {
       if (child instanceof three.Mesh || child instanceof three.LineSegments) (child.geometry as three.BufferGeometry).dispose();
     }
     const attachments = (mission?.carriers ?? []).map((carrier) => carrier.attachment_b_m).filter((point) => point.length === 3);
+    this.hull = [[0, 0, -0.05 * extent.radius]];
+    for (let i = 0; i + 2 < (mission?.hull_b_m.length ?? 0); i += 3) this.hull.push(mission!.hull_b_m.slice(i, i + 3) as Triple);
     if (mission !== undefined && sound(mission)) this.add_hull(mission);
     else this.add_point(attachments, extent);
     this.add_attachments(attachments, extent);
@@ -58,6 +62,11 @@ export class Load {
     const place = new three.Matrix4();
     attachments.forEach(([x = 0, y = 0, z = 0], i) => dots.setMatrixAt(i, place.makeTranslation(x, y, z)));
     this.group.add(dots);
+  }
+
+  /** In the world. */
+  corners(pose: Pose): Triple[] {
+    return this.hull.map((corner) => placed(pose.load, pose.orientation, corner));
   }
 
   repaint(): void {

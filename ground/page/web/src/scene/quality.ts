@@ -13,32 +13,41 @@ const kLevels: readonly Quality[] = [
   { pixels: 1.5, shadows: true },
   { pixels: 1, shadows: true },
   { pixels: 1, shadows: false },
-  { pixels: 0.75, shadows: false },
-  { pixels: 0.5, shadows: false },
+  { pixels: 0.8, shadows: false },
+  { pixels: 0.66, shadows: false },
 ];
 
-const kSlow_s = 1 / 24;
-const kQuick_s = 1 / 50;
+const kSlow_s = 1 / 40;
+const kSlowBySoftware_s = 1 / 21;
+const kQuick_s = 1 / 55;
+const kMostBySoftware = 30;  // pictures a second
 const kJudge_s = 1.2;
 const kRise_s = 20;
 
 export class Pacer {
   private level: number;
-  private usual_s = 1 / 40;
+  private usual_s = 1 / 30;
   private judged_s = 0;
+  private due_s = 0;
   private rose_s = 0;
   private risen = 0;
 
-  constructor(private readonly software: boolean) {
-    this.level = software ? 2 : 0;
+  /** `held`: at its best, whatever it takes: for pictures of the page. */
+  constructor(private readonly software: boolean, private readonly held: boolean) {
+    this.level = software && !held ? 2 : 0;
   }
 
   get quality(): Quality {
     return kLevels[this.level]!;
   }
 
-  get least_interval_s(): number {
-    return this.software ? 1 / 31 : 0;
+  /** Whether a picture is wanted at this call of the browser. */
+  is_due(now_s: number): boolean {
+    if (!this.software) return true;
+    const step_s = 1 / kMostBySoftware;
+    if (now_s < this.due_s - 0.25 * step_s) return false;
+    this.due_s = Math.max(this.due_s + step_s, now_s - step_s);
+    return true;
   }
 
   get frames_per_second(): number {
@@ -49,9 +58,9 @@ export class Pacer {
   drew(interval_s: number, now_s: number): boolean {
     if (interval_s > 0.5) return false;  // the tab was hidden
     this.usual_s += (interval_s - this.usual_s) * 0.06;
-    if (now_s - this.judged_s < kJudge_s) return false;
+    if (this.held || now_s - this.judged_s < kJudge_s) return false;
     this.judged_s = now_s;
-    if (this.usual_s > kSlow_s && this.level + 1 < kLevels.length) {
+    if (this.usual_s > (this.software ? kSlowBySoftware_s : kSlow_s) && this.level + 1 < kLevels.length) {
       ++this.level;
       this.rose_s = now_s;
       return true;

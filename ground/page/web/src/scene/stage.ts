@@ -3,9 +3,10 @@
 import * as three from 'three';
 import { now_s } from '../connection';
 import { css_color, element, found, say, show } from '../dom';
+import type { Frame } from '../messages';
 import type { Swarm } from '../swarm';
 import type { Theme } from '../theme';
-import { carrier_tone, rgb, tension_gradient } from '../tones';
+import { carrier_tone, rgb, tension_gradient, written_on } from '../tones';
 import { metres, millimetres } from '../words';
 import { Cables } from './cables';
 import { Camera } from './camera';
@@ -21,6 +22,8 @@ import { draws_by_processor, Pacer } from './quality';
 import { Ribbons } from './ribbons';
 
 const kClick_px = 5;
+const kWide_px = 760;    // from here on the inset lies on the scene
+const kInset_px = 210;
 
 export class Stage {
   private readonly scene = new three.Scene();
@@ -43,11 +46,11 @@ export class Stage {
   private told_s = 0;
   following = false;
 
-  private constructor(private readonly swarm: Swarm, private readonly theme: Theme) {
+  private constructor(private readonly swarm: Swarm, private readonly theme: Theme, held: boolean) {
     const canvas = found<HTMLCanvasElement>('scene');
-    const probe = probe_renderer();
-    this.pacer = new Pacer(draws_by_processor(probe));
-    this.renderer = new three.WebGLRenderer({ canvas, antialias: !draws_by_processor(probe), alpha: true, powerPreference: 'high-performance' });
+    const software = draws_by_processor(probe_renderer());
+    this.pacer = new Pacer(software, held);
+    this.renderer = new three.WebGLRenderer({ canvas, antialias: !software || held, alpha: true, powerPreference: 'high-performance' });
     this.renderer.shadowMap.type = three.PCFSoftShadowMap;
     this.camera = new Camera(canvas);
     this.labels = new Labels(found('labels'));
@@ -63,9 +66,9 @@ export class Stage {
   }
 
   /** Absent where the browser has no WebGL: everything else on the page works without. */
-  static begin(swarm: Swarm, theme: Theme): Stage | undefined {
+  static begin(swarm: Swarm, theme: Theme, held: boolean): Stage | undefined {
     try {
-      return new Stage(swarm, theme);
+      return new Stage(swarm, theme, held);
     } catch {
       found('labels').append(element('p', { class: 'no-scene', text: 'This browser cannot draw in three dimensions (no WebGL). Everything else works.' }));
       return undefined;
@@ -77,7 +80,7 @@ export class Stage {
   private resize(): void {
     this.size = { width: Math.max(1, this.box.clientWidth), height: Math.max(1, this.box.clientHeight) };
     this.renderer.setSize(this.size.width, this.size.height, false);
-    this.camera.resize(this.size.width, this.size.height);
+    this.camera.resize(this.size.width, this.size.height, this.size.width > kWide_px ? kInset_px : 0);
     this.carriers.screen = this.size;
     this.closest.screen = this.size;
   }
@@ -129,7 +132,8 @@ export class Stage {
     ids.forEach((id, i) => {
       const process = states.get(id);
       const bad = process !== undefined && !process.well;
-      this.labels.paint(i, carrier_tone(i, paper), this.swarm.shows(id) ? 'full' : 'faint', bad);
+      const tone = carrier_tone(i, paper);
+      this.labels.paint(i, tone, written_on(tone), this.swarm.shows(id) ? 'full' : 'faint', bad);
     });
     found('tension-map').style.background = tension_gradient(paper);
   }
@@ -150,8 +154,8 @@ export class Stage {
   private draw(): void {
     requestAnimationFrame(() => this.draw());
     const now = now_s();
+    if (!this.pacer.is_due(now)) return;
     const interval_s = now - this.drawn_s;
-    if (interval_s < this.pacer.least_interval_s) return;
     this.drawn_s = now;
     if (this.stale) this.rebuild();
     const moment = this.swarm.playback.at(now);
@@ -176,7 +180,7 @@ export class Stage {
     const spot = new three.Vector3();
     this.carriers.place(pose, time_s, (carrier) => 5 * pixel(spot.set(...carrier.position)));
     pose.carriers.forEach((carrier, i) => this.labels.place(i, carrier.seen ? carrier.position : undefined, eye, this.size));
-    this.labels.put(this.labels.load, pose.has_load ? pose.load : undefined, eye, this.size);
+    this.labels.put_below(this.labels.load, pose.has_load ? this.load.corners(pose) : [], eye, this.size);
     this.place_closest(pose);
   }
 
@@ -204,12 +208,25 @@ export class Stage {
     if (frame === undefined) return;
     say(this.labels.closest, Number.isFinite(frame.closest_m) ? metres(frame.closest_m) : '');
     say(this.labels.load, within_m === undefined ? '' : `still, within ${millimetres(within_m)}`);
+    this.tell_tensions(frame);
     const by_id = new Map(frame.carriers.map((carrier) => [carrier.id, carrier]));
     ids.forEach((id, i) => {
       const carrier = by_id.get(id);
       const chosen = this.swarm.selected.includes(id) || (ids.length <= 8 && this.swarm.selected.length === 0);
       this.labels.tell(i, chosen && carrier !== undefined && carrier.heard ? `${carrier.speed_m_s.toFixed(2)} m/s` : '');
     });
+  }
+
+  /** Where on the scale all cables are now. */
+  private tell_tensions(frame: Frame): void {
+    const { min, max } = tension_range(this.swarm.mission);
+    const shares = frame.carriers.filter((carrier) => carrier.heard).map((carrier) => (carrier.tension_n - min) / (max - min));
+    const span = found('tension-span');
+    show(span, shares.length > 0);
+    if (shares.length === 0) return;
+    const [low, high] = [Math.min(...shares), Math.max(...shares)].map((share) => Math.min(1, Math.max(0, share))) as [number, number];
+    span.style.left = `${(low * 100).toFixed(1)}%`;
+    span.style.width = `${Math.max(2, (high - low) * 100).toFixed(1)}%`;
   }
 
   // -------------------------------------------------------------------------------------------------------- asking

@@ -3,8 +3,8 @@
 import type { Frame, Mission, Status } from './messages';
 
 export const kWindow_s = 60;
-const kStep_s = 0.1;  // ten points a second are more than a plot has pixels
-const kMost = kWindow_s / kStep_s + 20;
+const kStep_s = 0.07;  // at 25 frames a second every other one: more points than a plot has pixels
+const kMost = Math.ceil(kWindow_s / kStep_s) + 20;
 const kCarriersMost = 128;
 
 /** Rows of numbers in the order they came; the oldest go. `width` numbers a row. */
@@ -82,7 +82,7 @@ export class History {
       this.load.raise([moved_mm]);
       return;
     }
-    this.next_s = frame.server_time_s + kStep_s - 0.02;  // frames of 25 Hz fall on it or just beside
+    this.next_s = frame.server_time_s + kStep_s;
     this.times.add([frame.server_time_s]);
     this.load.add([moved_mm]);
     const by_id = new Map(frame.carriers.map((carrier) => [carrier.id, carrier]));

@@ -58,7 +58,7 @@ int report(const ReportOptions& options) {
   if (const auto failed = write_report(options.folder, files)) return complain(failed->text);
   std::printf("%s\n%s/%s\n", report_text(accounts).c_str(), options.folder.c_str(), kPage);
   for (const Account& account : accounts) {
-    if (account.standing != Standing::kGood) return program::kFailed;
+    if (account.standing != Standing::kInside) return program::kFailed;
   }
   return program::kGood;
 }

@@ -85,17 +85,23 @@ bool above(const std::optional<Range>& range, const std::optional<double>& limit
 
 void draw_title(Svg& svg, const Chart& chart, const Box& place) {
   const double y = place.top + 13.0;
+  const std::string title = chart.title + ", " + chart.unit;
   svg.begin(kInk);
-  svg.words({place.left + kLeft, y}, chart.title + ", " + chart.unit, {kTitleFont, Anchor::kStart, true});
+  svg.words({place.left + kLeft, y}, title, {kTitleFont, Anchor::kStart, true});
   svg.end();
   const auto certified = united(chart.lines, &ChartLine::certified), flown = united(chart.lines, &ChartLine::flown);
   const bool broken = below(certified, chart.limit_min) || above(certified, chart.limit_max) ||
                       below(flown, chart.limit_min) || above(flown, chart.limit_max);
-  std::string words;
-  if (flown) words = "flown " + span_text(*flown) + (certified ? ", certified " + span_text(*certified) : "");
-  if (!flown && certified) words = span_text(*certified) + (broken ? "" : ", certified");
+  const std::string last = broken ? ", outside its limits" : "";
+  std::string words = certified ? span_text(*certified) + (broken || flown ? "" : ", certified") : "";
+  if (flown) {
+    const std::string flown_words = "flown " + span_text(*flown);
+    const std::string both = certified ? flown_words + ", certified " + words : flown_words;
+    const double room = place.width() - kLeft - width_of(title, kTitleFont);
+    words = width_of(both + last, kAxisFont) < room ? both : flown_words;
+  }
   svg.begin(broken ? kBad : kMuted);
-  svg.words({place.right, y}, words + (broken ? ", outside its limits" : ""), {kAxisFont, Anchor::kEnd});
+  svg.words({place.right, y}, words + last, {kAxisFont, Anchor::kEnd});
   svg.end();
 }
 
@@ -162,6 +168,7 @@ void draw_curves(Svg& svg, const Chart& chart, const std::vector<Curve>& curves)
   constexpr int kTurn = 9;  // px
   for (std::size_t i = 0; i < curves.size(); ++i) {
     Stroke stroke = curves.size() <= kFewCarriers ? Stroke{1.7, 0.95} : Stroke{0.9, 0.6};
+    if (chart.fine) stroke.width = std::min(stroke.width, 1.3);
     int alike = 0, before = 0;
     for (std::size_t j = 0; j < curves.size() && curves.size() <= kFewCarriers; ++j) {
       if (!look_alike(curves[i], curves[j])) continue;

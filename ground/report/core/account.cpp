@@ -1,6 +1,7 @@
 #include "ground/report/core/account.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/base/text.hpp"
 #include "ground/bounded_motion.hpp"
@@ -47,6 +48,26 @@ void add_file_remarks(const FileFacts& file, std::vector<std::string>& out) {
     out.push_back(counted(file.undecodable, "message") + " could not be read: not of this version, or damaged.");
 }
 
+/// Those that begin together, as when a recorder or a network stands still, are said together.
+void add_silences(const FlightDigest& digest, std::vector<std::string>& out) {
+  constexpr double kTogether_s = 0.1;
+  std::vector<Silence> left = digest.silences();
+  while (!left.empty()) {
+    const Silence first = left.front();
+    const auto together = [&first](const Silence& other) {
+      return std::abs(other.begin_s - first.begin_s) < kTogether_s &&
+             std::abs(other.duration_s - first.duration_s) < kTogether_s;
+    };
+    std::string who;
+    for (const Silence& silence : left) {
+      if (together(silence)) who += (who.empty() ? "" : ", ") + silence.who;
+    }
+    left.erase(std::remove_if(left.begin(), left.end(), together), left.end());
+    out.push_back(text("The longest time that nothing was heard of %s is %.2f s, from %.2f s on.", who.c_str(),
+                       first.duration_s, first.begin_s - digest.zero_s()));
+  }
+}
+
 void add_flight_remarks(const Account& account, std::vector<std::string>& out) {
   const FlightDigest& digest = *account.digest;
   if (!digest.mission()) {
@@ -70,16 +91,14 @@ void add_flight_remarks(const Account& account, std::vector<std::string>& out) {
   if (digest.view().refused() > 0)
     out.push_back(counted(digest.view().refused(), "message") +
                   " not believed: nonsense, or of a second process in somebody's place.");
-  for (const Silence& silence : digest.silences()) {
-    out.push_back(text("Nothing is recorded of %s for %.2f s.", silence.who.c_str(), silence.duration_s));
-  }
+  add_silences(digest, out);
 }
 
 void judge(Account& account) {
   const FlightDigest& digest = *account.digest;
   if (account.certified) account.verdict = digest.judged();
   if (account.verdict) {
-    account.standing = account.verdict->good() ? Standing::kGood : Standing::kOutside;
+    account.standing = account.verdict->good() ? Standing::kInside : Standing::kOutside;
     account.standing_words = account.verdict->good() ? "inside its certificate" : "outside its certificate";
     return;
   }

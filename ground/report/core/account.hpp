@@ -28,7 +28,7 @@ struct FileFacts {
   bool mission_given = false;                           ///< by who asked for the report, not by the recording
 };
 
-enum class Standing { kGood, kOutside, kNotJudged };
+enum class Standing { kInside, kOutside, kNotJudged };
 
 /// What a plan's motion looks like, and what is certified of it.
 struct Certified {

@@ -56,6 +56,8 @@ class FlightDigest {
 
   /// Seconds of this recording at which the motion was on at full pace.
   [[nodiscard]] const std::vector<mechanics::Range>& motion_s() const { return motion_s_; }
+  /// From where a report counts: the first of these, and where there is none the recording's begin.
+  [[nodiscard]] double zero_s() const { return motion_s_.empty() ? 0.0 : motion_s_.front().min; }
   [[nodiscard]] double flown_s() const { return flown_s_; }
   /// Of all that was believed; empty before the first message.
   [[nodiscard]] const mechanics::Range& recorded_s() const { return recorded_s_; }

@@ -128,12 +128,12 @@ Places places(const std::vector<Account>& accounts) {
 Chart flown_chart(Quantity quantity, const Account& account, const Places& places, double width_px) {
   const FlightDigest& digest = *account.digest;
   const bool moved = !digest.motion_s().empty();
-  const double zero_s = moved ? digest.motion_s().front().min : 0.0;
+  const double zero_s = digest.zero_s();
   const Range recorded = digest.recorded_s();
   Chart chart;
   chart.fine = true;
   chart.time_s = {recorded.min - zero_s, std::max(recorded.max, recorded.min + 1e-3) - zero_s};
-  chart.time_name = moved ? "time at full pace, s" : "time, s";
+  chart.time_name = moved ? "time since full pace, s" : "time, s";
   for (const Range& motion : digest.motion_s()) chart.marked_s.push_back({motion.min - zero_s, motion.max - zero_s});
   const double width_s = chart.time_s.span() / width_px;
   if (quantity == Quantity::kDisplacement || quantity == Quantity::kRotation) {

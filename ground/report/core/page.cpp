@@ -24,7 +24,8 @@ std::string styles() {
          "figure{margin:10px 0}figure svg{width:100%;height:auto;display:block}"
          ".table{overflow-x:auto}table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:13px}"
          "th,td{padding:3px 16px 3px 0;text-align:left;white-space:nowrap}"
-         "thead th{border-bottom:1px solid var(--grid)}tr.first td,tr.first th{border-top:1px solid var(--grid)}"
+         "thead tr+tr th{color:var(--muted);font-weight:400;padding-top:0}tr.first td,tr.first th{border-top:1px solid "
+         "var(--grid)}"
          "td.out{color:var(--bad);font-weight:600}"
          "@page{size:A4;margin:14mm 12mm}"
          "@media print{html:root{color-scheme:light;" +
@@ -88,11 +89,11 @@ std::string list(const std::vector<std::string>& items) {
 }
 
 const char* sign(Standing standing) {
-  return standing == Standing::kGood ? "\u2713 " : standing == Standing::kOutside ? "\u2717 " : "? ";
+  return standing == Standing::kInside ? "\u2713 " : standing == Standing::kOutside ? "\u2717 " : "? ";
 }
 
 const char* tone(Standing standing) {
-  return standing == Standing::kGood ? "good" : standing == Standing::kOutside ? "bad" : "muted";
+  return standing == Standing::kInside ? "good" : standing == Standing::kOutside ? "bad" : "muted";
 }
 
 std::string section(const Account& account) {

@@ -42,10 +42,10 @@ double draw_legend(Svg& svg, const Places& places, double top) {
 
 /// A tick, a cross or a question mark before the words, for those who cannot tell green from red.
 void draw_name(Svg& svg, const Account& account, double left, double width, double baseline) {
-  const char* const sign = account.standing == Standing::kGood      ? "\u2713 "
+  const char* const sign = account.standing == Standing::kInside    ? "\u2713 "
                            : account.standing == Standing::kOutside ? "\u2717 "
                                                                     : "? ";
-  const Tone& tone = account.standing == Standing::kGood      ? kGood
+  const Tone& tone = account.standing == Standing::kInside    ? kGood
                      : account.standing == Standing::kOutside ? kBad
                                                               : kMuted;
   const std::string words = shortened(sign + account.standing_words, kLegendFont, 0.6 * width);

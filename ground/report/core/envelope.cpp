@@ -51,7 +51,8 @@ std::vector<std::vector<Point>> Envelope::pieces(double least_width_s) const {
     const bool falls = column.greatest.x < column.least.x;
     for (const Point& point :
          {column.first, falls ? column.greatest : column.least, falls ? column.least : column.greatest, column.last}) {
-      if (out.back().empty() || point.x > out.back().back().x) out.back().push_back(point);
+      const bool told = !out.back().empty() && out.back().back().x == point.x && out.back().back().y == point.y;
+      if (!told) out.back().push_back(point);
     }
   }
   return out;

@@ -111,7 +111,7 @@ int fly_certified(const FlyOptions& options, const mission::Mission& mission) {
     if (!opened) return say(program::kFailed, opened.error().text);
     page = std::move(opened).value();
     flight.show_at(*page, hurting);
-    std::printf("\nOpen the page: %s\n\n", page->url().c_str());
+    std::printf("\nThe page: %s\n\n", page->url().c_str());
     std::fflush(stdout);
   }
   for (const Program& program : programs.value()) {

@@ -153,6 +153,8 @@ void Agent::on(LocalTime now, const protocol::Beacon& beacon, Outputs& out) {
     }
     doubted_at_.reset();
     if (age > age_max) {
+      // To a process that was stopped, old ones come first; to one whose clock leapt without it, only old ones.
+      if (awake_since_) doubted_at_ = now;
       ++dropped_.late;
       return;
     }

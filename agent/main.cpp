@@ -118,8 +118,8 @@ int main(int argc, char** argv) {
   program::Options common;
   std::vector<program::OptionGroup> groups =
       program::with_common_in_flight({{"--carrier", &options.carrier, "this carrier's id in the mission",
-                             program::Bounds{1, gyre::kMaxCarrierId}, program::Take::kRequired}},
-                           common);
+                                       program::Bounds{1, gyre::kMaxCarrierId}, program::Take::kRequired}},
+                                     common);
   groups.push_back(gyre::agent::vehicle_options(vehicle));
   const auto fly = [&]() -> int {
     if (const auto answer = program::start("gyre-agent " + std::to_string(options.carrier), common)) return *answer;

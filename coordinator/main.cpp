@@ -52,9 +52,7 @@ constexpr gyre::Duration kEvidencePeriod = std::chrono::milliseconds(18);
 class Wire {
  public:
   Wire(std::unique_ptr<gyre::dds::Node> opened, const gyre::mechanics::Plan& plan, bool laboratory)
-      : node_(std::move(opened)),
-        health_(*node_, "coordinator"),
-        laboratory_(*node_, "coordinator", laboratory) {
+      : node_(std::move(opened)), health_(*node_, "coordinator"), laboratory_(*node_, "coordinator", laboratory) {
     gyre::dds::Node& node = *node_;
     beacon_ = node.writer<protocol::Beacon>();
     replies_ = node.writer<protocol::CommandReply>();
@@ -191,11 +189,12 @@ int main(int argc, char** argv) {
     return run(mission, options, engage);
   };
   return program::run(
-      program::Command{"gyre-coordinator",
-                       "Owns the mission: certifies it, keeps swarm time, beacons the phase, agrees transitions.",
-                       program::with_common_in_flight({program::mission_argument(mission),
-                                             {"--engage", &engage, "start the motion as soon as every agent is ready"}},
-                                            options),
-                       conduct},
+      program::Command{
+          "gyre-coordinator",
+          "Owns the mission: certifies it, keeps swarm time, beacons the phase, agrees transitions.",
+          program::with_common_in_flight({program::mission_argument(mission),
+                                          {"--engage", &engage, "start the motion as soon as every agent is ready"}},
+                                         options),
+          conduct},
       argc, argv);
 }

@@ -395,9 +395,9 @@ std::optional<protocol::Disturbance> decode(const idl::Disturbance& wire) {
   using Kind = protocol::DisturbanceKind;
   const auto kind = enumerator(wire.kind(), Kind::kLosePackets, Kind::kPushLoad);
   if (!kind) return std::nullopt;
-  return protocol::Disturbance{wire.process().to_string(), *kind,
-                               wire.share(),               Duration(wire.shift_ns()),
-                               vector(wire.force_w_n()),   Duration(wire.duration_ns())};
+  return protocol::Disturbance{
+      wire.process().to_string(),  *kind, wire.share(), Duration(wire.shift_ns()), vector(wire.force_w_n()),
+      Duration(wire.duration_ns())};
 }
 
 }  // namespace gyre::dds

@@ -35,7 +35,8 @@ class Laboratory {
  private:
   struct Bench;
   dds::Node& node_;
-  std::shared_ptr<Bench> bench_;  // shared with the handler, which may run until the node is gone; absent: no laboratory
+  std::shared_ptr<Bench>
+      bench_;  // shared with the handler, which may run until the node is gone; absent: no laboratory
 };
 
 }  // namespace gyre::program

@@ -204,10 +204,10 @@ enum class DisturbanceKind : std::uint8_t { kLosePackets = 1, kShiftClock = 2, k
 struct Disturbance {
   std::string process;  ///< "agent 3"; at most kMaxTextBytes
   DisturbanceKind kind = DisturbanceKind::kLosePackets;
-  double share = 0.0;  ///< kLosePackets: of the packets, in and out alike; 0: none
-  Duration shift{};    ///< kShiftClock: added to the process's clock
+  double share = 0.0;                                   ///< kLosePackets: of the packets, in and out alike; 0: none
+  Duration shift{};                                     ///< kShiftClock: added to the process's clock
   Eigen::Vector3d force_w_n = Eigen::Vector3d::Zero();  ///< kPushLoad: at the centre of mass
-  Duration duration{};  ///< kPushLoad; kLosePackets: 0: until told otherwise
+  Duration duration{};                                  ///< kPushLoad; kLosePackets: 0: until told otherwise
 };
 
 inline constexpr std::size_t kMaxTextBytes = 255;

@@ -153,8 +153,9 @@ struct Simulator::World {
     }
     push.begin(arrived, pushed.force_w_n, pushed.duration);
     const Eigen::Vector3d& f = pushed.force_w_n;
-    out.notices.push_back({Notice::Level::kWarning, text("laboratory: the load is pushed by (%.4g, %.4g, %.4g) N for %.4g s",
-                                                         f.x(), f.y(), f.z(), seconds(pushed.duration))});
+    out.notices.push_back(
+        {Notice::Level::kWarning, text("laboratory: the load is pushed by (%.4g, %.4g, %.4g) N for %.4g s", f.x(),
+                                       f.y(), f.z(), seconds(pushed.duration))});
   }
 
   void report_drops(LocalTime now, Outputs& out) {

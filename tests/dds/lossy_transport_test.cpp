@@ -92,7 +92,8 @@ TEST_F(Loss, IsOfTheShareAskedForInAndOut) {
       for (const bool reached : send()) sent += reached ? 1 : 0;
       transport_.receive(&receiver, nullptr, kBytes, {}, {});
     }
-    EXPECT_NEAR(1.0 - static_cast<double>(sent) / kDestinations / kCount, share, by_chance(share, kDestinations * kCount));
+    EXPECT_NEAR(1.0 - static_cast<double>(sent) / kDestinations / kCount, share,
+                by_chance(share, kDestinations * kCount));
     EXPECT_NEAR(1.0 - static_cast<double>(receiver.received) / kCount, share, by_chance(share, kCount));
   }
 }

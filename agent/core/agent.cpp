@@ -328,10 +328,13 @@ void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
     out.notices.push_back({Notice::Level::kWarning,
                            "a clock jumped, this one or the coordinator's: swarm time was found "
                            "anew"});
-    // The carrier is where the last setpoint led it, or has gone on by itself: where that is, it has to tell.
+    // The carrier is where the last setpoint led it; or has gone on by itself, where it was told nothing meanwhile:
+    // where that is, it has to tell.
     if (flown && reference(course_, clock_.at(now))) merge_.begin(clock_.at(now), *flown, path(course_));
-    awake_since_ = now;
-    vehicle_.reset();
+    if (!flown_at_ || now - *flown_at_ > 5 * options_.control_period) {
+      awake_since_ = now;
+      vehicle_.reset();
+    }
   } else if (verdict != Verdict::kTaken) {
     ++dropped_.nonsense;
     return;

@@ -292,6 +292,29 @@ TEST_F(AgentTest, AClockThatLeaptIsFoundAnewAndMeanwhileTheVehicleKnowsBetter) {
   }
 }
 
+// As a coordinator's is that learned swarm time from its agents' words, which were on their way for so long.
+TEST_F(AgentTest, AClockThatIsALittleOffIsFoundAnewWhileTheVehicleIsLed) {
+  for (const Duration off : {milliseconds(4), -milliseconds(4)}) {
+    restart(1);
+    off_ = Duration::zero();
+    heard_.clear();
+    visit_ = nullptr;
+    engage();
+    off_ = off;
+    watch_for_steps();
+    int setpoints = 0;
+    visit_ = [&setpoints, watch = visit_](const protocol::Setpoint& s) {
+      ++setpoints;
+      watch(s);
+    };
+    fly(seconds(3));
+    EXPECT_NE(heard_.find("a clock jumped"), std::string::npos) << heard_;
+    EXPECT_EQ(setpoints, 300) << "it was told where to be all the time, and need not tell where it is";
+    fly(seconds(60));
+    EXPECT_LT(off_the_plan_m(), 1e-6);
+  }
+}
+
 TEST_F(AgentTest, StoppedItDoesNotWaitForMoreThanItsFirstFreshBeacon) {
   engage();
   now_ += seconds(2);

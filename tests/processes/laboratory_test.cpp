@@ -15,9 +15,9 @@ using std::chrono::seconds;
 
 const auto* const kTable = testing::AddGlobalTestEnvironment(new LossTable);
 
-/// A clock that was shifted moves the load by as much: whoever found swarm time anew is led again from where his
-/// vehicle is, and where all do that, the load is left swinging a little.
-constexpr double kShifted_m = 2.0 * kSwing_m;
+/// The coordinator's clock that was shifted moves the load by as much: swarm time is what the agents say by then, which
+/// is old by some milliseconds, and that each of them finds anew. To swarm time their setpoints step by as much.
+constexpr double kShifted_m = 0.01;
 constexpr const char* kFoundAnew = "swarm time was found anew";
 
 class LaboratoryTest : public FaultTest {
@@ -161,7 +161,6 @@ TEST_F(LaboratoryTest, TheCoordinatorsClockIsShiftedWithinTheLease) {
     ASSERT_TRUE(back) << flight_->said_by_all();
     const Row& row = measure(text("laboratory: the coordinator's clock is shifted by %+.0f s", gyre::seconds(by)), "");
     EXPECT_LT(row.load.displacement_max_m, kShifted_m);
-    expect_continuous(row);
     flight_.reset();
   }
 }
@@ -177,8 +176,9 @@ TEST_F(LaboratoryTest, TheCoordinatorsClockLeapsBeyondTheLease) {
   wait(1.0);
   expect_done(ask(protocol::CommandKind::kEngage));
   ASSERT_NO_FATAL_FAILURE(fly());
-  expect_unmoved(measure("laboratory: the coordinator's clock leaps by 8 s",
-                         text("all at rest %.1f s after; engaged, they fly", *stopped)));
+  const Row& row = measure("laboratory: the coordinator's clock leaps by 8 s",
+                           text("all at rest %.1f s after; engaged, they fly", *stopped));
+  EXPECT_LT(row.load.displacement_max_m, kShifted_m);
 }
 
 TEST_F(LaboratoryTest, TheLoadIsPushed) {

@@ -16,8 +16,9 @@ using std::chrono::seconds;
 const auto* const kTable = testing::AddGlobalTestEnvironment(new LossTable);
 
 /// The coordinator's clock that was shifted moves the load by as much: swarm time is what the agents say by then, which
-/// is old by some milliseconds, and that each of them finds anew. To swarm time their setpoints step by as much.
-constexpr double kShifted_m = 0.01;
+/// is old by some milliseconds, and that each of them finds anew. To swarm time their setpoints step by as much, and
+/// where it is more than ten milliseconds, each is led again from where its vehicle is.
+constexpr double kShifted_m = kSwing_m;
 constexpr const char* kFoundAnew = "swarm time was found anew";
 
 class LaboratoryTest : public FaultTest {

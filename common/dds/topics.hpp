@@ -46,6 +46,7 @@ template <> inline constexpr Topic kTopic<protocol::CommandReply> {"command_repl
 template <> inline constexpr Topic kTopic<protocol::CoordinatorStatus> {"coordinator/status", "gyre_msgs::msg::dds_::CoordinatorStatus_", false, Delivery::kRetained};
 template <> inline constexpr Topic kTopic<protocol::MissionText>  {"mission",       "gyre_msgs::msg::dds_::MissionText_",     false, Delivery::kRetained};
 template <> inline constexpr Topic kTopic<protocol::Health>       {"health",        "gyre_msgs::msg::dds_::Health_",          false, Delivery::kFromMany};
+template <> inline constexpr Topic kTopic<protocol::Disturbance>  {"laboratory",    "gyre_msgs::msg::dds_::Disturbance_",     false, Delivery::kEach};
 // clang-format on
 
 [[nodiscard]] constexpr bool reliable(Delivery delivery) {

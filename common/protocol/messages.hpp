@@ -43,9 +43,8 @@ struct PlanOffer {
   std::vector<NumberedSlice> neighbour;  ///< of the carrier after it, which this agent only keeps; at most kMaxPlans
 };
 
-/// Topic carrier_N/held, agent N to coordinator: the plans it holds, so that a restarted coordinator can learn them and
-/// give them back to a restarted agent. At most kMaxPlans. It keeps those of a neighbour as well: one agent may die
-/// together with the coordinator, and nothing is forgotten.
+/// Topic carrier_N/held, agent N to coordinator: the plans it holds, at most kMaxPlans, so that a restarted coordinator
+/// can learn them. It keeps a neighbour's as well: one agent may die with the coordinator, and nothing is forgotten.
 struct HeldPlans {
   CarrierId carrier = 0;
   std::uint64_t incarnation = 0;
@@ -53,9 +52,8 @@ struct HeldPlans {
   std::vector<NumberedSlice> neighbour;  ///< as it was offered
 };
 
-/// Topics carrier_N/time_request and time_reply: the four timestamps of a two-way exchange. The reply is the one word
-/// that each of two agents of one carrier gets for itself, so it says which of them is believed as well: before a
-/// newcomer knows swarm time it knows whether it may fly.
+/// Topics carrier_N/time_request and time_reply: the four timestamps of a two-way exchange. Each of two agents of one
+/// carrier gets its own reply, so it says which is believed: a newcomer knows whether it may fly before it knows time.
 struct TimeRequest {
   CarrierId carrier = 0;
   std::uint64_t incarnation = 0;
@@ -186,8 +184,7 @@ struct CoordinatorStatus {
   std::string news;                 ///< the latest of what it has to tell; at most kMaxTextBytes
 };
 
-/// Topic mission, coordinator to ground: the mission in force as a file's text, so that whoever joins a flight knows
-/// its load, its shape and its limits without the file.
+/// Topic mission, coordinator to ground: the mission in force, so that who joins knows its load and limits.
 struct MissionText {
   std::uint64_t term = 0;
   PlanNumber plan;   ///< as CoordinatorStatus names it
@@ -207,8 +204,7 @@ struct Health {
 
 enum class DisturbanceKind : std::uint8_t { kLosePackets = 1, kShiftClock = 2, kPushLoad = 3 };
 
-/// Topic laboratory, ground to the processes that were started with --laboratory; nobody else listens. What it may ask
-/// for, and what it means, is in protocol/disturbance.hpp.
+/// Topic laboratory, ground to processes that were started with --laboratory; nobody else listens (disturbance.hpp).
 struct Disturbance {
   std::string process;  ///< "agent 3"; at most kMaxTextBytes
   DisturbanceKind kind = DisturbanceKind::kLosePackets;

@@ -137,6 +137,11 @@ async function watch_and_command(browser, url, owns) {
   await check('carriers move', () => carriers_move(page));
   await check('plots fill', () => plots_fill(page));
   await check('the token left the address', async () => need(!(await page.url()).includes('token'), page.url()));
+  await check('text of the wire stays text', async () => {
+    const within = ['log', 'processes', 'missing-list', 'headline', 'toasts'];
+    const made = await page.evaluate((ids) => ids.flatMap((id) => [...document.querySelectorAll(`#${id} :is(img, script, a, iframe, em, u)`)]).length, within);
+    need(made === 0, 'markup came over the wire');
+  });
   await check('pictures per second, software rendering', async () => {
     const rate = await pace(page);
     if (rate < 15) console.log(`      below the 15 that are wanted of a machine with nothing else to do`);

@@ -4,7 +4,7 @@ import { now_s } from './connection';
 import { found, mark, say } from './dom';
 import type { Swarm } from './swarm';
 import type { TimeSync } from './time_sync';
-import { clock, degrees, headline, percent, seconds } from './words';
+import { clock, degrees, good_displacement, headline, percent, seconds } from './words';
 import { kDelay_s, phase_between } from './playback';
 
 const kRing = 2 * Math.PI * 26;  // the length of the ring in index.html
@@ -55,6 +55,7 @@ export class Header {
       frame: swarm.frame,
       status: swarm.status,
       within_m: swarm.within_m,
+      good_m: good_displacement(swarm.mission),
     });
     mark(document.body, 'data-mood', state.mood);
     say(found('headline'), state.line);

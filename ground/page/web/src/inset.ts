@@ -162,7 +162,6 @@ export class Inset {
     const newest = this.trace[this.trace.length - 1];
     if (newest === undefined) return;
     say(found('moved-now'), millimetres(this.swarm.within_m ?? Math.hypot(...newest.at)));
-    const times = this.times >= 1 ? String(this.times) : '1/10';
-    say(found('magnified'), `magnified ${times} times`);
+    say(found('magnified'), this.times > 1 ? `magnified ${this.times} times` : this.times === 1 ? 'true to size' : 'a tenth of its size');
   }
 }

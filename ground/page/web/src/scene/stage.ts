@@ -7,7 +7,7 @@ import type { Frame } from '../messages';
 import type { Swarm } from '../swarm';
 import type { Theme } from '../theme';
 import { carrier_tone, rgb, tension_gradient, written_on } from '../tones';
-import { metres, millimetres } from '../words';
+import { good_displacement, metres, millimetres } from '../words';
 import { Cables } from './cables';
 import { Camera } from './camera';
 import { Carriers } from './carriers';
@@ -207,7 +207,7 @@ export class Stage {
     say(found('fps'), `${this.pacer.frames_per_second.toFixed(0)} pictures/s`);
     if (frame === undefined) return;
     say(this.labels.closest, Number.isFinite(frame.closest_m) ? metres(frame.closest_m) : '');
-    say(this.labels.load, within_m === undefined ? '' : `still, within ${millimetres(within_m)}`);
+    say(this.labels.load, within_m === undefined ? '' : `${within_m <= good_displacement(this.swarm.mission) ? 'still, within' : 'swings within'} ${millimetres(within_m)}`);
     this.tell_tensions(frame);
     const by_id = new Map(frame.carriers.map((carrier) => [carrier.id, carrier]));
     ids.forEach((id, i) => {

@@ -11,6 +11,7 @@ const kRing = 2 * Math.PI * 26;  // the length of the ring in index.html
 
 export class Header {
   private said_s = 0;
+  private announced = '';
 
   constructor(private readonly swarm: Swarm, private readonly time: TimeSync) {
     const turn = (): void => {
@@ -59,11 +60,20 @@ export class Header {
     });
     mark(document.body, 'data-mood', state.mood);
     say(found('headline'), state.line);
+    this.announce(state.line);
     say(found('subline'), state.sub);
     say(found('mission-name'), swarm.mission?.name || 'no mission heard yet');
     document.title = swarm.online ? `${state.line} · Gyre` : 'Gyre: looking for the server';
     this.say_connection(now);
     this.say_beside();
+  }
+
+  /** To those who listen: a new state, and not every new figure of the same one. */
+  private announce(line: string): void {
+    const state = line.replace(/[\d.]+/g, '');
+    if (state === this.announced) return;
+    this.announced = state;
+    say(found('announced'), line);
   }
 
   private say_connection(now: number): void {

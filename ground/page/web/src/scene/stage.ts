@@ -178,7 +178,7 @@ export class Stage {
     this.load.place(pose);
     this.cables.place(pose, this.theme.paper, (at) => 1.15 * pixel(at), shows);
     const spot = new three.Vector3();
-    this.carriers.place(pose, time_s, (carrier) => 5 * pixel(spot.set(...carrier.position)));
+    this.carriers.place(pose, time_s, this.swarm.playback, (carrier) => 5 * pixel(spot.set(...carrier.position)));
     pose.carriers.forEach((carrier, i) => this.labels.place(i, carrier.seen ? carrier.position : undefined, eye, this.size));
     this.labels.put_below(this.labels.load, pose.has_load ? this.load.corners(pose) : [], eye, this.size);
     this.place_closest(pose);

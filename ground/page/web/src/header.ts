@@ -88,7 +88,7 @@ export class Header {
     say(found('skew'), parts.join(' · '));
     found('skew').title = "How surely this page knows the server's time, and how far its picture is behind it";
     const domain = hello === undefined ? '' : `domain ${hello.domain}`;
-    say(found('mission-more'), [mission?.plan ? `plan ${mission.plan}` : '', domain].filter(Boolean).join(' · '));
+    say(found('mission-more'), [mission?.plan ? `plan ${mission.plan}` : '', domain, mission?.complete === false ? 'its shape and limits were not heard' : ''].filter(Boolean).join(' · '));
   }
 
   private say_beside(): void {

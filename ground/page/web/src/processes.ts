@@ -70,7 +70,9 @@ export class Processes {
     for (const process of status.processes) this.draw_row(process);
     this.draw_missing(status);
     const unwell = status.processes.filter((process) => !process.well).length;
-    say(found('processes-count'), unwell === 0 ? `all ${status.processes.length} well` : `${unwell} of ${status.processes.length} not well`);
+    const well = unwell === 0 ? `all ${status.processes.length} well` : `${unwell} of ${status.processes.length} not well`;
+    const allowed = status.skew_budget_s > 0 ? `, ${seconds(status.skew_budget_s)} allowed` : '';
+    say(found('processes-count'), status.skew_s < 0 ? well : `${well} · clocks within ${seconds(status.skew_s)}${allowed}`);
     mark(found('processes-count'), 'data-bad', String(unwell > 0));
   }
 

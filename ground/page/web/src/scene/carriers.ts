@@ -69,7 +69,7 @@ export class Carriers {
     const points = many ? 40 : 96;
     const period_s = mission !== undefined && mission.period_s > 0 ? mission.period_s : 20;
     this.step_s = Math.min(kTrailMost_s, kTrailOfPeriod * period_s) / points;
-    this.trails = new Ribbons(count, points, { width: many ? 3 : 6, opacity: 0.8 });
+    this.trails = new Ribbons(count, points, { width: many ? 3 : 7, opacity: 0.85 });
     this.paths = ids.map(() => new Float32Array(0));
     this.trailed_s = -Infinity;
     const orbits = ids.map((id) => mission?.carriers.find((carrier) => carrier.id === id)?.orbit_w_m ?? []);
@@ -86,7 +86,7 @@ export class Carriers {
       const weight = shows(i) ? 1 : 0.25;
       this.color.set(tone);
       for (const mesh of [this.bodies, this.planes, this.ghosts]) mesh.setColorAt(i, this.color);
-      this.trails?.paint(i, rgb(tone), (share) => weight * share ** 2.2);
+      this.trails?.paint(i, rgb(tone), (share) => weight * share ** 1.7);
       this.orbits?.paint(i, rgb(tone), () => weight);
     });
     for (const mesh of [this.bodies, this.planes, this.ghosts])

@@ -82,7 +82,8 @@ export class Processes {
     row.dot.style.setProperty('--tone', process.carrier !== 0 && index >= 0 ? carrier_tone(index, this.theme.paper) : 'transparent');
     mark(row.line, 'data-well', String(process.well));
     const chosen = this.swarm.process === process.name || (process.carrier !== 0 && this.swarm.selected.includes(process.carrier));
-    mark(row.line, 'aria-selected', String(chosen));
+    mark(row.line, 'data-selected', String(chosen));
+    mark(row.button, 'aria-pressed', String(chosen));
     for (const column of kColumns) say(row.cells[column], cell_words(process, column));
     if (row.cells.state.title !== process.complaint) row.cells.state.title = process.complaint;
     const { late, duplicate, wrong_term, nonsense } = process.dropped;

@@ -7,10 +7,8 @@ namespace gyre::agent {
 
 namespace {
 
-/// Where a carrier is `age_s` after it said so.
-Command command_of(const protocol::CarrierState& s, double age_s) {
-  return {{s.position_w_m + age_s * s.velocity_w_m_s, s.velocity_w_m_s, Eigen::Vector3d::Zero()},
-          {s.winch_length_m + age_s * s.winch_rate_m_s, s.winch_rate_m_s, 0.0}};
+Command command_of(const protocol::CarrierState& s) {
+  return {{s.position_w_m, s.velocity_w_m_s, Eigen::Vector3d::Zero()}, {s.winch_length_m, s.winch_rate_m_s, 0.0}};
 }
 
 }  // namespace
@@ -70,7 +68,7 @@ bool Agent::back_at_the_vehicle(LocalTime now) {
 }
 
 void Agent::begin_at_the_vehicle(LocalTime now, const Path& path) {
-  merge_.begin(clock_.at(now), command_of(*vehicle_, seconds(now - vehicle_heard_)), path);
+  merge_.begin_at_vehicle(clock_.at(now), now - vehicle_heard_, command_of(*vehicle_), path);
   steps_.forget();  // it was silent, and what it said before was not flown
   flown_at_ = now;  // a stall before the first setpoint is one, too
 }

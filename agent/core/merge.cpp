@@ -58,6 +58,9 @@ double distance_m(const Command& a, const Command& b) {
   return std::hypot((a.position_w_m.value - b.position_w_m.value).norm(), a.winch_m.value - b.winch_m.value);
 }
 
+/// The wire, and a beat on either side.
+constexpr double kOnItsWay_s = 0.025;
+
 /// Whoever is further ahead on a path that repeats is behind by the rest of it. What lies ahead is known only until the
 /// lease ends, and that is told anew ten times a second; what is left of it when it is not extended any more is more.
 constexpr double kMostAhead_s = 0.5;
@@ -119,19 +122,55 @@ std::optional<Merge::Delay> Merge::behind(SwarmTime now, const Command& flown, c
   return Delay{look.nearest_s, lost};
 }
 
-void Merge::begin(SwarmTime now, const Command& flown, const Path& path) {
+/// And what the path asks for with it.
+Command Merge::find_delay(SwarmTime now, const Command& flown, const Path& path) {
   start_ = now;
   const std::optional<Delay> delay = behind(now, flown, path);
   delay_ = delay.value_or(Delay{});
   delay_time_ = delay ? delay_time(delay->delay_s) : Duration::zero();
-  const Command reference = delayed(now, path);
+  return delayed(now, path);
+}
+
+void Merge::begin(SwarmTime now, const Command& flown, const Path& path) {
+  close(flown, find_delay(now, flown, path));
+}
+
+void Merge::begin_at_vehicle(SwarmTime now, Duration age, Command told, const Path& path) {
+  const Command present = path.at(now - age);
+  const Eigen::Vector3d& velocity = present.position_w_m.first;
+  const auto along = [&](const Eigen::Vector3d& v) {
+    const double share = velocity.dot(v) / velocity.squaredNorm();
+    return std::isfinite(share) ? share : 0.0;  // a path may stand still
+  };
+  const double share = std::clamp(along(told.position_w_m.first), 0.0, 1.0);
+  if (share > 0.5) {
+    const double ahead_s = along(told.position_w_m.value - present.position_w_m.value);
+    age += from_seconds(std::clamp(-ahead_s, 0.0, kOnItsWay_s));
+  }
+  const Command reference = find_delay(now - age, told, path);
+  told.position_w_m.second = share * share * reference.position_w_m.second;
+  told.winch_m.second = share * share * reference.winch_m.second;
+  // What gap and delay there are have grown since then.
+  told.position_w_m.value += seconds(age) * (told.position_w_m.first - reference.position_w_m.first);
+  told.winch_m.value += seconds(age) * (told.winch_m.first - reference.winch_m.first);
+  if (delay_time_ > Duration::zero()) {
+    delay_.delay_s += seconds(age) * delay_.rate;
+    delay_time_ = delay_time(delay_.delay_s);
+  }
+  start_ = now;
+  close(told, reference);
+}
+
+/// The gap between the two, and how long it takes to close it.
+void Merge::close(const Command& flown, const Command& reference) {
   gap_.position_w_m = flown.position_w_m - reference.position_w_m;
   gap_.winch_m = flown.winch_m - reference.winch_m;
   const double position = gap_.position_w_m.value.norm();
   const double speed = gap_.position_w_m.first.norm();
   const double length = std::abs(gap_.winch_m.value);
   const double rate = std::abs(gap_.winch_m.first);
-  under_way_ = delay || std::max(position, length) >= kNothing_m || std::max(speed, rate) >= kNothing_m;
+  under_way_ =
+      delay_time_ > Duration::zero() || std::max(position, length) >= kNothing_m || std::max(speed, rate) >= kNothing_m;
   // Half of each limit: the other half is for the plan that goes on meanwhile.
   const double acceleration = 0.5 * limits_.acceleration_m_s2;
   const double shortest_s = std::max(position, length) > kUnnoticed_m ? kUnpushed_s : kShortest_s;

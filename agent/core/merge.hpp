@@ -59,6 +59,12 @@ class Merge {
 
   /// From now on, `path` would be flown; `flown` is what was.
   void begin(SwarmTime now, const Command& flown, const Path& path);
+  /// The same, where the vehicle's word of what it flies is so old: place and speed, and no acceleration. The gap
+  /// is that of the moment it speaks of: on a bend, a hundredth of a second later it is another one, in speed, too, and
+  /// that carries far. So who flies along the path is taken to speak of the moment at which he was nearest to it, no
+  /// longer ago than a word is on its way; and to be on his way round the same bend: at a share of its speed, by the
+  /// square of that share. Taken for none, his acceleration would carry him aside by a sixtieth of the path's.
+  void begin_at_vehicle(SwarmTime now, Duration age, Command told, const Path& path);
 
   /// The path's command with what is left of the gap. `path`: the one it began with.
   [[nodiscard]] Command apply(SwarmTime now, const Path& path) const;
@@ -67,6 +73,8 @@ class Merge {
   }
 
  private:
+  [[nodiscard]] Command find_delay(SwarmTime now, const Command& flown, const Path& path);
+  void close(const Command& flown, const Command& reference);
   /// Flown at `now` with a delay, in seconds, that changes by `rate`.
   struct Delay {
     double delay_s = 0.0;

@@ -53,6 +53,7 @@ class Incumbent {
   [[nodiscard]] bool believes(LocalTime now, std::uint64_t who) { return hear(now, who) != Verdict::kRival; }
 
   [[nodiscard]] bool silent(LocalTime now) const { return heard_.silent(now); }
+  [[nodiscard]] std::optional<LocalTime> last() const { return heard_.last(); }  ///< word of who is believed
   [[nodiscard]] std::optional<std::uint64_t> who() const { return who_; }  ///< absent: nobody was ever heard
   /// Who was heard lately beside the one that is believed.
   [[nodiscard]] std::optional<std::uint64_t> rival(LocalTime now) const {

@@ -205,6 +205,19 @@ struct Health {
   Duration late_max{};            ///< how late its main loop woke from a sleep, the worst since the last report
 };
 
+enum class DisturbanceKind : std::uint8_t { kLosePackets = 1, kShiftClock = 2, kPushLoad = 3 };
+
+/// Topic laboratory, ground to the processes that were started with --laboratory; nobody else listens. What it may ask
+/// for, and what it means, is in protocol/disturbance.hpp.
+struct Disturbance {
+  std::string process;  ///< "agent 3"; at most kMaxTextBytes
+  DisturbanceKind kind = DisturbanceKind::kLosePackets;
+  double share = 0.0;                                   ///< kLosePackets: of the packets, in and out alike; 0: none
+  Duration shift{};                                     ///< kShiftClock: added to the process's clock
+  Eigen::Vector3d force_w_n = Eigen::Vector3d::Zero();  ///< kPushLoad: at the centre of mass
+  Duration duration{};                                  ///< kPushLoad; kLosePackets: 0: until told otherwise
+};
+
 inline constexpr std::size_t kMaxTextBytes = 255;
 inline constexpr std::size_t kMaxMissionBytes = 32768;
 

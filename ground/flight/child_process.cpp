@@ -62,9 +62,11 @@ std::string ProcessEnd::text() const {
   return gyre::text("was killed by signal %d (%s)", signal, ::strsignal(signal));
 }
 
-Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& command, const std::string& log_path) {
+Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& command, const std::string& log_path,
+                                         LogFile log_file) {
   GYRE_ENSURE(!command.empty(), "a command names at least its executable");
-  const Descriptor log(::open(log_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644));
+  const int fresh = log_file == LogFile::kStartsEmpty ? O_TRUNC : 0;
+  const Descriptor log(::open(log_path.c_str(), O_WRONLY | O_CREAT | fresh | O_APPEND | O_CLOEXEC, 0644));
   if (log.get() < 0) return failed("cannot write the log " + log_path, errno);
   const Descriptor null(::open("/dev/null", O_RDONLY | O_CLOEXEC));
   if (null.get() < 0) return failed("cannot open /dev/null", errno);

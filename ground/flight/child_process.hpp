@@ -27,11 +27,14 @@ struct ProcessEnd {
   [[nodiscard]] std::string text() const;
 };
 
+enum class LogFile { kStartsEmpty, kGoesOn };
+
 class ChildProcess {
  public:
-  /// `command[0]` is the executable's path. stdout and stderr go to the file at `log_path`, which starts empty. Fails
+  /// `command[0]` is the executable's path. stdout and stderr go to the file at `log_path`. Fails
   /// when the log cannot be written or the executable cannot be run; the error names the path and the reason.
-  [[nodiscard]] static Result<ChildProcess> start(const std::vector<std::string>& command, const std::string& log_path);
+  [[nodiscard]] static Result<ChildProcess> start(const std::vector<std::string>& command, const std::string& log_path,
+                                                  LogFile log_file = LogFile::kStartsEmpty);
 
   /// Kills it, and waits until it is gone.
   ~ChildProcess();

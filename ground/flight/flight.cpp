@@ -44,16 +44,19 @@ std::optional<FlightFailure> Flight::run() {
     for (const Heard& heard : listening_.wait_until(dds::now())) take(heard);
     node_.answer_callers({"gyre fly", ""});
     const LocalTime now = dds::now();
+    turn_page(now);
     starvation_.see(now, processor_account());
     interrupts_ += take_interrupts().total();
     if (interrupts_ >= 2) return FlightFailure{"ended at once, as asked: the load was not brought to rest", {}};
     if (const auto failure = look_after_processes()) return failure;
 
     const bool over = interrupts_ > 0 || seconds(monitor_.flown(now)) >= duration_s_ ||
-                      monitor_.phase(now) == FlightPhase::kReleasing;
+                      (by_hand_.empty() && monitor_.phase(now) == FlightPhase::kReleasing);
     if (over) release(now);
     if (!release_deadline_) {
-      if (const auto complaint = monitor_.complaint(now)) return FlightFailure{*complaint, kCoordinatorName};
+      // What a person does by hand, and what comes of it, is for that person to end.
+      const auto complaint = by_hand_.empty() ? monitor_.complaint(now) : std::nullopt;
+      if (complaint) return FlightFailure{*complaint, kCoordinatorName};
     } else if (now > *release_deadline_ && !released_) {
       return FlightFailure{"the coordinator did not bring the load to rest in time", kCoordinatorName};
     }
@@ -63,8 +66,25 @@ std::optional<FlightFailure> Flight::run() {
   return std::nullopt;
 }
 
+void Flight::turn_page(LocalTime now) {
+  if (!page_) return;
+  for (HurtTask& task : page_->take_hurts()) {
+    const Answer answer = hurting_->perform(task.wish);
+    if (answer.done) page_->feed().hurt(now, answer.text);
+    if (answer.done) by_hand_.push_back(answer.text);
+    task.answer->set_value(answer);
+  }
+  page_->step(now, hurting_->processes());
+}
+
 void Flight::take(const Heard& heard) {
   if (!view_.step(heard.arrived, heard.message)) return;
+  if (page_) page_->hear(heard.arrived, heard.message);
+  if (const auto* command = std::get_if<protocol::Command>(&heard.message);
+      page_ && command && ordered_ != command->id) {
+    ordered_ = command->id;
+    by_hand_.push_back("asked to " + order_words(*command));
+  }
   monitor_.look(heard.arrived);
   if (const auto* beacon = std::get_if<protocol::Beacon>(&heard.message)) {
     certificate_.include(beacon->course);
@@ -86,6 +106,7 @@ void Flight::take(const Heard& heard) {
 
 std::optional<FlightFailure> Flight::look_after_processes() {
   for (const Supervisor::Ended& ended : supervisor_.collect()) {
+    if (page_ && hurting_->meant(ended.name)) continue;
     const bool asked = release_deadline_.has_value() && ended.name == kCoordinatorName;
     // Asked before it was ready for signals, it has nothing to bring to rest.
     const bool unready = ended.end.signal == SIGINT && !monitor_.under_way(dds::now());
@@ -100,6 +121,10 @@ void Flight::release(LocalTime now) {
   if (release_deadline_) return;
   release_deadline_ = now + 2 * monitor_.transition_duration() + kReleasePatience;
   supervisor_.send(kCoordinatorName, SIGINT);  // as a person would: back to rest, then the end
+  if (!by_hand_.empty() && !supervisor_.pid(kCoordinatorName)) {
+    by_hand_.push_back("no coordinator was left to bring the load to rest");
+    released_ = true;
+  }
 }
 
 void Flight::show(LocalTime now) {

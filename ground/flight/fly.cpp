@@ -1,6 +1,8 @@
 #include "ground/flight/fly.hpp"
 
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +18,8 @@
 #include "ground/flight/flight.hpp"
 #include "ground/flight/flight_directory.hpp"
 #include "ground/flight/flight_programs.hpp"
+#include "ground/flight/hurting.hpp"
+#include "ground/page/page.hpp"
 
 namespace gyre::ground {
 namespace {
@@ -25,6 +29,8 @@ struct FlyOptions {
   std::optional<double> duration_s;
   std::optional<std::string> logs;
   bool keep_logs = false;
+  bool page = false;
+  PageOptions page_options;
   program::NetworkOptions network;
 };
 
@@ -60,7 +66,12 @@ int conclude(const Flight& flight, FlightDirectory& directory) {
   const std::optional<FlightReport> report = flight.report();
   if (!report) return say(program::kGood, "Ended as asked, before the motion had begun: nothing to judge.");
   std::printf("%s", flight_table(*report).c_str());
+  for (const std::string& what : flight.by_hand()) std::printf("by hand: %s\n", what.c_str());
   const bool written = std::fflush(stdout) == 0;
+  if (!flight.by_hand().empty()) {
+    return say(written ? program::kGood : program::kFailed,
+               "A person had a hand in it: what it came to stands above, and no verdict.");
+  }
   if (report->good()) return written ? program::kGood : program::kFailed;
   directory.keep();
   excuse(flight.starvation());
@@ -81,12 +92,28 @@ int fly_certified(const FlyOptions& options, const mission::Mission& mission) {
   FlightDirectory directory = std::move(made).value();
   if (options.keep_logs) directory.keep();
 
-  const double duration_s = options.duration_s.value_or(mechanics::period_s(mission.plan));
-  std::fprintf(stderr, "Flying %s for %.1f s on domain %d, logs in %s\n", mission.name.c_str(), duration_s, net.domain,
+  // Somebody who looks decides how long.
+  const double otherwise_s = options.page ? std::numeric_limits<double>::infinity() : mechanics::period_s(mission.plan);
+  const double duration_s = options.duration_s.value_or(otherwise_s);
+  const std::string how_long = std::isfinite(duration_s) ? text("for %.1f s", duration_s) : "until ctrl-c";
+  std::fprintf(stderr, "Flying %s %s on domain %d, logs in %s\n", mission.name.c_str(), how_long.c_str(), net.domain,
                directory.path().c_str());
   FlightDisplay display;
   Supervisor supervisor(directory.path());
   Flight flight(mission, duration_s, *net.node, supervisor, display);
+  Hurting hurting(*net.node, supervisor, programs.value());
+  std::unique_ptr<Page> page;
+  if (options.page) {
+    PageOwner owner;
+    owner.domain = net.domain;
+    owner.owns_processes = true;
+    auto opened = Page::open(options.page_options, owner, *net.node, flight.view());
+    if (!opened) return say(program::kFailed, opened.error().text);
+    page = std::move(opened).value();
+    flight.show_at(*page, hurting);
+    std::printf("\nThe page: %s\n\n", page->url().c_str());
+    std::fflush(stdout);
+  }
   for (const Program& program : programs.value()) {
     const Result<pid_t> started = supervisor.start(program);
     if (!started) return report_failure({started.error().text, {}}, supervisor, directory);
@@ -125,7 +152,9 @@ program::Command fly_command() {
                          {"--duration", &options->duration_s, "seconds of full motion (else one period of the mission)",
                           program::Bounds{0.1, 7.0 * 86400.0}},
                          {"--logs", &options->logs, "directory for one log per process; kept (else a temporary one)"},
-                         {"--keep-logs", &options->keep_logs, "keep the logs of a good flight too"}}),
+                         {"--keep-logs", &options->keep_logs, "keep the logs of a good flight too"},
+                         {"--page", &options->page, "serve the page of the flight, and fly until ctrl-c"}}),
+           {"The page", page_options(options->page_options)},
            program::network_options(options->network, "the first that is free")},
           [options] { return fly(*options); }};
 }

@@ -17,6 +17,22 @@ Result<pid_t> Supervisor::start(const Program& program) {
   return members_.back().process.pid();
 }
 
+Result<pid_t> Supervisor::restart(const Program& program) {
+  const auto old =
+      std::find_if(members_.begin(), members_.end(), [&](const Member& member) { return member.name == program.name; });
+  if (old != members_.end()) members_.erase(old);  // kills it and waits
+  Result<ChildProcess> process = ChildProcess::start(program.command, log_path(program.name), LogFile::kGoesOn);
+  if (!process) return Error{program.name + ": " + process.error().text};
+  members_.push_back({program.name, std::move(process).value()});
+  return members_.back().process.pid();
+}
+
+std::optional<pid_t> Supervisor::pid(const std::string& name) {
+  Member* const member = find(name);
+  if (!member || member->process.ended()) return std::nullopt;
+  return member->process.pid();
+}
+
 std::vector<Supervisor::Ended> Supervisor::collect() {
   std::vector<Ended> news;
   for (Member& member : members_) {
@@ -44,6 +60,7 @@ std::vector<std::string> Supervisor::stop(const StopPatience& patience) {
     return true;
   };
   send_all(SIGTERM);
+  send_all(SIGCONT);  // one that was stopped would not hear it
   if (!all_gone_within(patience.ask_again_s)) send_all(SIGTERM);
   std::vector<std::string> stubborn;
   if (!all_gone_within(patience.kill_s)) {

@@ -5,6 +5,8 @@
 // bound, and when it is destroyed every process is gone.
 
 #include <deque>
+#include <list>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,11 @@ class Supervisor {
 
   /// Names are unique. Errors as ChildProcess::start.
   [[nodiscard]] Result<pid_t> start(const Program& program);
+
+  /// Kills it if it still runs, and starts it anew; its log goes on. Errors as ChildProcess::start.
+  [[nodiscard]] Result<pid_t> restart(const Program& program);
+  /// Absent: it has ended, or there is none of this name.
+  [[nodiscard]] std::optional<pid_t> pid(const std::string& name);
 
   struct Ended {
     std::string name;
@@ -57,7 +64,7 @@ class Supervisor {
   void send_all(int signal);
 
   std::string log_directory_;
-  std::deque<Member> members_;
+  std::list<Member> members_;
 };
 
 }  // namespace gyre::ground

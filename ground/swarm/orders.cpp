@@ -12,18 +12,15 @@
 #include "common/program/mission_argument.hpp"
 #include "common/program/program.hpp"
 #include "common/protocol/messages.hpp"
+#include "ground/swarm/core/order_desk.hpp"
 
 namespace gyre::ground {
 namespace {
 
 using protocol::CommandKind;
 
-/// To find a coordinator at all.
-constexpr Duration kPatience = std::chrono::seconds(5);
-/// For its answer: a transition is answered when it is agreed, which takes several rehearsals on a busy machine.
-constexpr Duration kPatienceOnceFound = std::chrono::seconds(20);
-/// The reply's way back may be found after the command's way there, so the same command is said again, with its id.
-constexpr Duration kRepeat = std::chrono::milliseconds(250);
+/// Between two looks at what has come.
+constexpr Duration kLook = std::chrono::milliseconds(50);
 
 /// Two senders at once must not take each other's answer.
 std::uint64_t fresh_id() {
@@ -42,35 +39,34 @@ std::string coordinators_elsewhere() {
                        : "Coordinators on this machine (choose with --domain):" + found;
 }
 
-std::optional<protocol::CommandReply> ask(dds::Node& node, const protocol::Command& command) {
+OrderAnswer ask(dds::Node& node, const protocol::Command& command) {
   const auto inbox = std::make_shared<dds::Inbox<protocol::CommandReply>>();
   node.read<protocol::CommandReply>(
       [inbox](protocol::CommandReply reply, LocalTime) { inbox->push(std::move(reply)); });
   const auto writer = node.writer<protocol::Command>();
-  const LocalTime begin = dds::now();
-  bool found = false;
-  for (LocalTime next = begin; next < begin + (found ? kPatienceOnceFound : kPatience); next += kRepeat) {
-    found = found || writer.readers() > 0;
-    writer.write(command);
-    for (const protocol::CommandReply& reply : inbox->wait_until(next + kRepeat)) {
-      if (reply.id == command.id) return reply;
-    }
+  OrderDesk desk;
+  desk.ask(dds::now(), command);
+  while (true) {
+    const OrderDesk::Outputs out = desk.step(dds::now(), writer.readers() > 0);
+    if (!out.answers.empty()) return out.answers.front();
+    for (const protocol::Command& word : out.send) writer.write(word);
+    for (const protocol::CommandReply& reply : inbox->wait_until(dds::now() + kLook)) desk.see(reply);
   }
-  return std::nullopt;
 }
 
 int send(protocol::Command command, const program::NetworkOptions& options) {
   const auto node = program::open_node(options, {});
   if (!node) return node.error();
   command.id = fresh_id();
-  const auto reply = ask(*node.value(), command);
-  if (!reply) {
+  const OrderAnswer answer = ask(*node.value(), command);
+  if (!answer.reply) {
     std::fprintf(stderr, "No coordinator answered on domain %d within %.0f s.\n%s\n", node.value()->domain(),
-                 seconds(kPatience), coordinators_elsewhere().c_str());
+                 seconds(answer.found ? OrderDesk::kPatienceOnceFound : OrderDesk::kPatience),
+                 coordinators_elsewhere().c_str());
     return program::kFailed;
   }
-  std::fprintf(reply->done ? stdout : stderr, "%s\n", reply->text.c_str());
-  return reply->done ? program::kGood : program::kFailed;
+  std::fprintf(answer.reply->done ? stdout : stderr, "%s\n", answer.reply->text.c_str());
+  return answer.reply->done ? program::kGood : program::kFailed;
 }
 
 /// The mission is read here first: a bad file is answered on the spot, with its lines.

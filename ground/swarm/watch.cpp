@@ -14,6 +14,7 @@
 #include "common/program/program.hpp"
 #include "ground/swarm/account_text.hpp"
 #include "ground/swarm/core/swarm_watch.hpp"
+#include "ground/swarm/ground_seat.hpp"
 #include "ground/swarm/listening.hpp"
 
 namespace gyre::ground {
@@ -53,19 +54,12 @@ void merge(Account& account, const Account& next) {
   account.load.include(next.load);
 }
 
-/// The ground's own seat, where `gyre health` asks; who comes later watches as a visitor.
-dds::Seat seat(const program::NetworkOptions& network) {
-  const Result<int> domain = dds::choose_domain(network.domain);
-  const dds::Seat ground{dds::Hub::kGround, std::nullopt};
-  return domain && !dds::seat_holder(ground, domain.value()).taken ? ground : dds::Seat{};
-}
-
 int watch(const WatchOptions& options) {
   block_interrupts();
   if (const auto answer = program::start("gyre watch", options.common)) return *answer;
   const auto mission = program::read_mission(options.mission);
   if (!mission) return mission.error();
-  const auto opened = program::open_node(options.common.network, seat(options.common.network));
+  const auto opened = program::open_node(options.common.network, ground_seat(options.common.network));
   if (!opened) return opened.error();
   dds::Node& node = *opened.value();
   dds::HealthReporter health(node, "ground");

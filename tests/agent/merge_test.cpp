@@ -176,6 +176,39 @@ TEST(Merge, OfAVehicleThatCannotHurryOrIsBesideItsPathGoesStraight) {
   EXPECT_GT(least_radius_m({2.0, 2.0, 0.5}, beside), 0.97) << "the other side of the circle is no nearer";
 }
 
+/// What a vehicle tells of itself: no acceleration.
+Command told(Command flown) {
+  flown.position_w_m.second.setZero();
+  flown.winch_m.second = 0.0;
+  return flown;
+}
+
+TEST(Merge, WithAVehicleThatFliesItsPathMovesNobodyHoweverOldItsWord) {
+  constexpr double kRadius_m = 50.0;  // ten metres a second, and two metres a second squared towards the middle
+  for (const Duration on_its_way : {from_seconds(0), from_seconds(0.007), from_seconds(0.02)}) {
+    Merge merge({40.0, 40.0, 5.0});
+    // It came ten milliseconds ago, and was on its way before that.
+    merge.begin_at_vehicle(kNow, from_seconds(0.01), told(late(kRadius_m, from_seconds(0.01) + on_its_way, 1.0)),
+                           round_and_round(kRadius_m));
+    double off_m = 0.0;
+    for (Duration t{}; t < from_seconds(10.0); t += from_seconds(0.02)) {
+      const Command asked = merge.apply(kNow + t, round_and_round(kRadius_m));
+      off_m = std::max(off_m, (asked.position_w_m.value - circle(kNow + t, kRadius_m).position_w_m.value).norm());
+    }
+    // Along the path it is found to where the bend of twenty milliseconds, 0.4 mm, leaves it.
+    EXPECT_LT(off_m, 1e-3) << seconds(on_its_way);
+  }
+}
+
+TEST(Merge, WithAVehicleThatStandsBeginsWhereItStands) {
+  Merge merge({40.0, 40.0, 5.0});
+  const Command there = told(standing(50.0, from_seconds(0.015)));
+  merge.begin_at_vehicle(kNow, from_seconds(0.01), there, round_and_round(50.0));
+  const Command asked = merge.apply(kNow, round_and_round(50.0));
+  EXPECT_LT((asked.position_w_m.value - there.position_w_m.value).norm(), 1e-6) << "it is late by no word";
+  EXPECT_LT(asked.position_w_m.first.norm(), 1e-6);
+}
+
 TEST(Merge, DoesNothingWhereThereIsNoGap) {
   Command c;
   c.position_w_m.value = {1.0, 2.0, 3.0};

@@ -1,6 +1,7 @@
 #include "ground/flight/core/flight_progress.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/base/text.hpp"
 
@@ -14,6 +15,7 @@ std::string how_far(const FlightProgress& progress) {
     case FlightPhase::kFlying:
     case FlightPhase::kSlowed:
     case FlightPhase::kReleasing:
+      if (!std::isfinite(progress.duration_s)) return text("%.1f s", progress.flown_s);
       return text("%.1f of %.1f s", progress.flown_s, progress.duration_s);
     case FlightPhase::kStarting:
     case FlightPhase::kEngaging:

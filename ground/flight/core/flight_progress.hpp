@@ -14,7 +14,7 @@ struct FlightProgress {
   int agents = 0;
   int agents_ready = 0;
   double flown_s = 0.0;
-  double duration_s = 0.0;
+  double duration_s = 0.0;         ///< infinite: until somebody ends it
   std::optional<LoadRecord> load;  ///< absent: not heard of yet
 
   [[nodiscard]] double share() const;  ///< of the motion's duration, 0..1

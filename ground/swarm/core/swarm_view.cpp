@@ -11,6 +11,8 @@ namespace {
 /// Names are the sender's to choose: a liar shall not fill the memory. Every agent there can be, and the hubs.
 constexpr std::size_t kMaxProcesses = 128;
 
+constexpr double kOnItsWay_s = 0.01;
+
 bool is_carrier(CarrierId id) {
   return id >= 1 && id <= kMaxCarrierId;
 }
@@ -124,6 +126,18 @@ std::optional<mechanics::Reference> SwarmView::planned(CarrierId carrier, SwarmT
     const auto slice = slices.find(number);
     return slice == slices.end() ? nullptr : &slice->second;
   });
+}
+
+std::optional<double> SwarmView::deviation_m(CarrierId carrier) const {
+  const auto found = carriers_.find(carrier);
+  if (!beacon_ || found == carriers_.end() || !found->second.vehicle) return std::nullopt;
+  const auto then = planned(carrier, *swarm_time(*found->second.vehicle_heard));
+  if (!then || !then->position_w_m.value.allFinite()) return std::nullopt;
+  const Eigen::Vector3d off = found->second.vehicle->position_w_m - then->position_w_m.value;
+  const Eigen::Vector3d& velocity = then->position_w_m.first;
+  if (velocity.squaredNorm() == 0.0) return off.norm();
+  const double late_s = std::clamp(off.dot(velocity) / velocity.squaredNorm(), -kOnItsWay_s, kOnItsWay_s);
+  return (off - late_s * velocity).norm();
 }
 
 std::map<std::string, std::string> SwarmView::complaints(LocalTime now) const {

@@ -79,6 +79,9 @@ class SwarmView {
   [[nodiscard]] std::vector<CarrierId> carrier_ids() const;
   /// What the carrier has to do by the course at this moment. Absent: no beacon, or nobody told the plan.
   [[nodiscard]] std::optional<mechanics::Reference> planned(CarrierId carrier, SwarmTime at) const;
+  /// How far the vehicle was from there when it last told where it is. Along its path a hundredth of a second is not
+  /// counted: that is how long its word may have been on its way. Absent as above, or it never told.
+  [[nodiscard]] std::optional<double> deviation_m(CarrierId carrier) const;
   [[nodiscard]] const std::optional<protocol::LoadState>& load() const { return load_; }
   [[nodiscard]] const protocol::Incumbent& load_heard() const { return loads_; }
 

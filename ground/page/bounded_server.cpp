@@ -1,0 +1,121 @@
+#include "ground/page/bounded_server.hpp"
+
+#include <arpa/inet.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <string>
+
+namespace gyre::ground {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Whether the socket is ready for `events` before `deadline`.
+bool ready_by(int socket, short events, Clock::time_point deadline) {
+  while (true) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    if (left < 0) return false;
+    pollfd waiting{socket, events, 0};
+    const int count = ::poll(&waiting, 1, static_cast<int>(left));
+    if (count > 0) return true;
+    if (count == 0 || errno != EINTR) return false;
+  }
+}
+
+class BoundedStream final : public httplib::Stream {
+ public:
+  BoundedStream(socket_t socket, const ServerBounds& bounds) : socket_(socket), bounds_(bounds) {}
+
+  /// Whether another request begins before the connection counts as idle; from then on its bounds count.
+  bool begin_request() {
+    if (at_ == end_ && !ready_by(socket_, POLLIN, Clock::now() + bounds_.idle_time)) return false;
+    bytes_left_ = bounds_.request_bytes;
+    deadline_ = Clock::now() + bounds_.request_time;
+    return true;
+  }
+
+  bool is_readable() const override { return at_ < end_ || ready_by(socket_, POLLIN, deadline_); }
+  bool is_writable() const override { return ready_by(socket_, POLLOUT, Clock::now() + bounds_.write_time); }
+
+  ssize_t read(char* into, size_t size) override {
+    if (at_ == end_ && !fill()) return -1;
+    const std::size_t taken = std::min({size, end_ - at_, bytes_left_});
+    if (taken == 0) return at_ == end_ ? 0 : -1;  // the other side is done, or the request is too long
+    std::copy_n(buffer_.begin() + static_cast<std::ptrdiff_t>(at_), taken, into);
+    at_ += taken;
+    bytes_left_ -= taken;
+    return static_cast<ssize_t>(taken);
+  }
+
+  ssize_t write(const char* from, size_t size) override {
+    if (!is_writable()) return -1;
+    return ::send(socket_, from, size, MSG_NOSIGNAL);
+  }
+
+  void get_remote_ip_and_port(std::string& ip, int& port) const override { name(::getpeername, ip, port); }
+  void get_local_ip_and_port(std::string& ip, int& port) const override { name(::getsockname, ip, port); }
+  socket_t socket() const override { return socket_; }
+
+ private:
+  /// False: nothing came in time, or the connection broke. An end leaves the buffer empty.
+  bool fill() {
+    if (!ready_by(socket_, POLLIN, deadline_)) return false;
+    const ssize_t got = ::recv(socket_, buffer_.data(), buffer_.size(), 0);
+    if (got < 0) return false;
+    at_ = 0;
+    end_ = static_cast<std::size_t>(got);
+    return true;
+  }
+
+  template <class Ask>
+  void name(Ask ask, std::string& ip, int& port) const {
+    sockaddr_in address{};
+    socklen_t length = sizeof address;
+    if (ask(socket_, reinterpret_cast<sockaddr*>(&address), &length) != 0 || address.sin_family != AF_INET) return;
+    std::array<char, INET_ADDRSTRLEN> text{};
+    if (::inet_ntop(AF_INET, &address.sin_addr, text.data(), text.size())) ip = text.data();
+    port = ntohs(address.sin_port);
+  }
+
+  const socket_t socket_;
+  const ServerBounds& bounds_;
+  std::array<char, 4096> buffer_{};
+  std::size_t at_ = 0, end_ = 0;
+  std::size_t bytes_left_ = 0;
+  Clock::time_point deadline_{};
+};
+
+}  // namespace
+
+BoundedServer::BoundedServer(const ServerBounds& bounds) : bounds_(bounds) {
+  set_payload_max_length(bounds.request_bytes);
+}
+
+bool BoundedServer::process_and_close_socket(socket_t socket) {
+  BoundedStream stream(socket, bounds_);
+  bool good = false;
+  for (int left = bounds_.requests_per_connection; left > 0 && is_running() && stream.begin_request(); --left) {
+    bool closed = false;
+#ifdef CPPHTTPLIB_SERVER_READ_TIMEOUT_SECOND  // 0.18, Debian 13; before that it asked the stream for the addresses
+                                              // itself
+    std::string remote, local;
+    int remote_port = 0, local_port = 0;
+    stream.get_remote_ip_and_port(remote, remote_port);
+    stream.get_local_ip_and_port(local, local_port);
+    good = process_request(stream, remote, remote_port, local, local_port, left == 1, closed, nullptr);
+#else
+    good = process_request(stream, left == 1, closed, nullptr);
+#endif
+    if (!good || closed) break;
+  }
+  ::shutdown(socket, SHUT_RDWR);
+  ::close(socket);
+  return good;
+}
+
+}  // namespace gyre::ground

@@ -1,0 +1,54 @@
+#include "ground/page/core/door.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace gyre::ground {
+namespace {
+
+bool all_of(std::string_view text, std::string_view allowed) {
+  return !text.empty() && text.find_first_not_of(allowed) == std::string_view::npos;
+}
+
+/// "host:port" without ":port".
+std::string_view without_port(std::string_view host) {
+  const std::size_t colon = host.rfind(':');
+  if (colon == std::string_view::npos || host.back() == ']') return host;
+  return all_of(host.substr(colon + 1), "0123456789") ? host.substr(0, colon) : std::string_view();
+}
+
+}  // namespace
+
+bool same_token(std::string_view told, std::string_view token) {
+  std::size_t differs = told.size() ^ token.size();
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    differs |= static_cast<std::size_t>(told[i] ^ (token.empty() ? '\0' : token[i % token.size()]));
+  }
+  return differs == 0 && !token.empty();
+}
+
+bool is_own_host(std::string_view host) {
+  if (host.empty() || host.size() > 64) return false;
+  const std::string_view name = without_port(host);
+  if (name == "localhost") return true;
+  if (name.size() > 2 && name.front() == '[' && name.back() == ']') {
+    return all_of(name.substr(1, name.size() - 2), "0123456789abcdefABCDEF:.");
+  }
+  return all_of(name, "0123456789.") && std::count(name.begin(), name.end(), '.') == 3;
+}
+
+bool is_same_origin(std::string_view origin, std::string_view host) {
+  if (origin.empty()) return true;
+  constexpr std::string_view kScheme = "http://";
+  return origin.substr(0, kScheme.size()) == kScheme && origin.substr(kScheme.size()) == host;
+}
+
+bool RateJudge::admits(LocalTime now) {
+  left_ = std::min(burst_, left_ + std::max(0.0, seconds(now - last_)) * per_second_);
+  last_ = now;
+  if (left_ < 1.0) return false;
+  left_ -= 1.0;
+  return true;
+}
+
+}  // namespace gyre::ground

@@ -1,0 +1,38 @@
+#pragma once
+// Who may come in: what a request has to show before anything is done for it.
+//
+// Intuition: a page in another tab may send requests to this machine, too, in the name of the person who sits before
+// it. It does not know the token, cannot set the header that carries it without asking first, and gets no answer it may
+// read. What is left is a name that is made to point here (DNS rebinding): so the host has to be an address, or
+// "localhost", and not just any name.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "common/base/time.hpp"
+
+namespace gyre::ground {
+
+/// Takes as long whatever is wrong with it.
+[[nodiscard]] bool same_token(std::string_view told, std::string_view token);
+
+/// Of a Host header: "127.0.0.1:8480", "[::1]:8480", "localhost". Other names are nobody's whom we know; an empty one
+/// is refused as well.
+[[nodiscard]] bool is_own_host(std::string_view host);
+
+/// Of an Origin header, "http://127.0.0.1:8480": whether it is the host's own page; an empty one is no browser's.
+[[nodiscard]] bool is_same_origin(std::string_view origin, std::string_view host);
+
+/// So many at once, and so many a second.
+class RateJudge {
+ public:
+  RateJudge(double burst, double per_second) : burst_(burst), per_second_(per_second), left_(burst) {}
+  [[nodiscard]] bool admits(LocalTime now);
+
+ private:
+  double burst_, per_second_, left_;
+  LocalTime last_{};
+};
+
+}  // namespace gyre::ground

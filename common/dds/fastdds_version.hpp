@@ -68,6 +68,9 @@ inline constexpr api::DataRepresentationId_t kXcdr1 = api::DataRepresentationId_
 [[nodiscard]] inline std::uint32_t payload_length(Payload payload) {
   return payload.length;
 }
+[[nodiscard]] inline const std::uint8_t* payload_bytes(Payload payload) {
+  return payload.data;
+}
 
 /// Bytes of the sample on the wire, encapsulation header included, without the padding that may follow.
 template <class Support>
@@ -114,6 +117,9 @@ inline constexpr auto kOk = eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
 }
 [[nodiscard]] inline std::uint32_t payload_length(Payload payload) {
   return payload->length;
+}
+[[nodiscard]] inline const std::uint8_t* payload_bytes(Payload payload) {
+  return payload->data;
 }
 
 /// Bytes of the sample on the wire, encapsulation header included, without the padding that may follow.

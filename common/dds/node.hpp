@@ -19,6 +19,7 @@
 #include "common/base/ids.hpp"
 #include "common/base/result.hpp"
 #include "common/base/time.hpp"
+#include "common/dds/recorded_sample.hpp"
 #include "common/dds/seat_lock.hpp"
 
 namespace gyre::dds {
@@ -83,6 +84,10 @@ class Node {
   /// `handler(message, arrived)` runs in a Fast DDS thread. Samples that do not decode are counted, not delivered.
   template <class Message>
   void read(std::function<void(Message, LocalTime)> handler, std::optional<CarrierId> carrier = std::nullopt);
+
+  /// Every topic of the swarm, or with a carrier every topic of that one, as bytes: `handler` runs in a Fast DDS thread
+  /// for each sample that arrives, whatever is in it. A node that records reads nothing of the same topics.
+  void record(const std::function<void(RecordedSample)>& handler, std::optional<CarrierId> carrier = std::nullopt);
 
   [[nodiscard]] int domain() const;
   /// Tells one life of a process from the next, and from another's: the moment at which this node was opened. Not 0.

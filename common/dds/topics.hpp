@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "common/base/ensure.hpp"
 #include "common/base/ids.hpp"
@@ -48,6 +49,13 @@ template <> inline constexpr Topic kTopic<protocol::MissionText>  {"mission",   
 template <> inline constexpr Topic kTopic<protocol::Health>       {"health",        "gyre_msgs::msg::dds_::Health_",          false, Delivery::kFromMany};
 template <> inline constexpr Topic kTopic<protocol::Disturbance>  {"laboratory",    "gyre_msgs::msg::dds_::Disturbance_",     false, Delivery::kEach};
 // clang-format on
+
+/// All that have a topic: what is in here is recorded, too.
+using EveryMessage =
+    std::tuple<protocol::Beacon, protocol::PlanOffer, protocol::HeldPlans, protocol::TimeRequest, protocol::TimeReply,
+               protocol::AgentStatus, protocol::Setpoint, protocol::CarrierState, protocol::LoadState,
+               protocol::Command, protocol::CommandReply, protocol::CoordinatorStatus, protocol::MissionText,
+               protocol::Health, protocol::Disturbance>;
 
 [[nodiscard]] constexpr bool reliable(Delivery delivery) {
   return delivery != Delivery::kNewest && delivery != Delivery::kFromMany;

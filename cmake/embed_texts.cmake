@@ -1,7 +1,7 @@
 # Writes texts into a C++ source, so that a program needs no files of them: a function that returns name and content of
 # each, the name being the path below the folder of its set. Run in the build, by add_custom_command:
 #
-#   cmake -DOUTPUT=... -DHEADER=declares_it.hpp -DNAMESPACE=gyre::x -DFUNCTION=texts -DFOLDERS=a,b -DFILES=a/1,b/2 -P THIS
+#   cmake -DOUTPUT=... -DHEADER=WHERE_IT_IS_DECLARED -DNAMESPACE=gyre::x -DFUNCTION=texts -DFOLDERS=a,b -DFILES=a/1,b/2 -P THIS
 
 string(REPLACE "," ";" FOLDERS "${FOLDERS}")
 string(REPLACE "," ";" FILES "${FILES}")

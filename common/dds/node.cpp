@@ -172,6 +172,10 @@ void Node::answer_callers(const SeatAnswer& answer) {
   impl_->participant.seat().answer(answer);
 }
 
+void Node::lose_packets(double share) {
+  impl_->participant.packet_loss().set_share(share);
+}
+
 Node::Counters Node::counters() const {
   return {*impl_->unsendable, *impl_->undecodable};
 }
@@ -263,6 +267,7 @@ GYRE_CARRY(protocol::CommandReply)
 GYRE_CARRY(protocol::CoordinatorStatus)
 GYRE_CARRY(protocol::MissionText)
 GYRE_CARRY(protocol::Health)
+GYRE_CARRY(protocol::Disturbance)
 #undef GYRE_CARRY
 
 }  // namespace gyre::dds

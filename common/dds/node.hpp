@@ -39,6 +39,7 @@ struct NodeOptions {
   int domain = 0;                       ///< 0..100
   std::string interface = "127.0.0.1";  ///< the one to use, by its IPv4 address or its name
   std::vector<std::string> peers;       ///< further hosts (IPv4) where hubs may sit; the own interface is always one
+  bool laboratory = false;              ///< packets may be lost on purpose
 };
 
 /// The highest domain whose ports stay below the range the system hands out (32768 upwards).
@@ -96,6 +97,9 @@ class Node {
 
   /// Answers everybody who asks at this node's seat (seat_lock.hpp); call it as often as the main loop turns.
   void answer_callers(const SeatAnswer& answer);
+
+  /// From now on so many of the packets, in and out alike, are lost; 0: none. For nodes of a laboratory only.
+  void lose_packets(double share);
 
   struct Counters {
     std::uint64_t unsendable = 0;   ///< write refused by Fast DDS or message too large

@@ -51,6 +51,7 @@ GYRE_PAYLOAD(protocol::CommandReply)
 GYRE_PAYLOAD(protocol::CoordinatorStatus)
 GYRE_PAYLOAD(protocol::MissionText)
 GYRE_PAYLOAD(protocol::Health)
+GYRE_PAYLOAD(protocol::Disturbance)
 #undef GYRE_PAYLOAD
 
 }  // namespace gyre::dds

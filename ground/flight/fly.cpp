@@ -85,7 +85,9 @@ int fly_certified(const FlyOptions& options, const mission::Mission& mission) {
   Result<FlightNetwork, FlightNetworkError> network = open_flight_network(options.network, carrier_ids(mission));
   if (!network) return say(network.error().bad_usage ? program::kBadUsage : program::kFailed, network.error().text);
   const FlightNetwork& net = network.value();
-  const auto programs = flight_programs(home.value(), options.mission, carrier_ids(mission), net.arguments());
+  std::vector<std::string> arguments = net.arguments();
+  if (options.page) arguments.emplace_back("--laboratory");  // who looks may also hurt it
+  const auto programs = flight_programs(home.value(), options.mission, carrier_ids(mission), arguments);
   if (!programs) return say(program::kFailed, programs.error().text);
   Result<FlightDirectory> made = FlightDirectory::make(options.logs);
   if (!made) return say(program::kFailed, made.error().text);
@@ -111,7 +113,7 @@ int fly_certified(const FlyOptions& options, const mission::Mission& mission) {
     if (!opened) return say(program::kFailed, opened.error().text);
     page = std::move(opened).value();
     flight.show_at(*page, hurting);
-    std::printf("The page: %s\n", page->url().c_str());
+    std::printf("\nThe page: %s\n\n", page->url().c_str());
     std::fflush(stdout);
   }
   for (const Program& program : programs.value()) {

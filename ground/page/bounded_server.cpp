@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <string>
 
 namespace gyre::ground {
@@ -53,8 +54,9 @@ class BoundedStream final : public httplib::Stream {
   }
 
   ssize_t write(const char* from, size_t size) override {
+    // Some of it fits, or it would not be writable: without the flag the kernel would wait for room for all of it.
     if (!is_writable()) return -1;
-    return ::send(socket_, from, size, MSG_NOSIGNAL);
+    return ::send(socket_, from, size, MSG_NOSIGNAL | MSG_DONTWAIT);
   }
 
   void get_remote_ip_and_port(std::string& ip, int& port) const override { name(::getpeername, ip, port); }
@@ -96,7 +98,36 @@ BoundedServer::BoundedServer(const ServerBounds& bounds) : bounds_(bounds) {
   set_payload_max_length(bounds.request_bytes);
 }
 
+bool BoundedServer::admit(socket_t socket) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!ended_) open_.insert(socket);
+  return !ended_;
+}
+
+void BoundedServer::leave(socket_t socket) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  open_.erase(socket);
+  ::shutdown(socket, SHUT_RDWR);
+  ::close(socket);  // within the lock: from now on another connection may have its number
+  left_.notify_all();
+}
+
+void BoundedServer::end() {
+  stop();
+  std::unique_lock<std::mutex> lock(mutex_);
+  ended_ = true;
+  for (const socket_t socket : open_) ::shutdown(socket, SHUT_RD);
+  left_.wait_for(lock, bounds_.last_words, [this] { return open_.empty(); });
+  for (const socket_t socket : open_) ::shutdown(socket, SHUT_RDWR);
+}
+
 bool BoundedServer::process_and_close_socket(socket_t socket) {
+  const bool good = admit(socket) && serve(socket);
+  leave(socket);
+  return good;
+}
+
+bool BoundedServer::serve(socket_t socket) {
   BoundedStream stream(socket, bounds_);
   bool good = false;
   for (int left = bounds_.requests_per_connection; left > 0 && is_running() && stream.begin_request(); --left) {
@@ -113,8 +144,6 @@ bool BoundedServer::process_and_close_socket(socket_t socket) {
 #endif
     if (!good || closed) break;
   }
-  ::shutdown(socket, SHUT_RDWR);
-  ::close(socket);
   return good;
 }
 

@@ -13,7 +13,10 @@
 
 namespace gyre::ground {
 
-struct Metrics::Impl {
+namespace {
+
+/// Made anew for each text: a figure that was not told again is not there.
+struct Figures {
   using Family = prometheus::Family<prometheus::Gauge>;
 
   Family& family(const char* name, const char* help) {
@@ -43,21 +46,21 @@ struct Metrics::Impl {
   Family& late = family("gyre_process_late_seconds", "how late its main loop woke, lately");
 };
 
-namespace {
-
 double margin_n(double tension_n, const mechanics::Limits& limits) {
   const double low = limits.tension_min_n ? tension_n - *limits.tension_min_n : tension_n;
   return limits.tension_max_n ? std::min(low, *limits.tension_max_n - tension_n) : low;
 }
 
+/// Who does not know it yet says a time longer than any flight.
+bool is_known(Duration error) {
+  return error < std::chrono::hours(1);
+}
+
 }  // namespace
 
-Metrics::Metrics() : impl_(std::make_unique<Impl>()) {}
-Metrics::~Metrics() = default;
-
-std::string Metrics::text(const SwarmView& view, const KnownMission* mission, const LoadWindow& load,
-                          const std::optional<std::string>& complaint, LocalTime now) {
-  Impl& m = *impl_;
+std::string metrics_text(const SwarmView& view, const KnownMission* mission, const LoadWindow& load,
+                         const std::optional<std::string>& complaint, LocalTime now) {
+  Figures m;
   m.calm.Add({}).Set(complaint ? 0.0 : 1.0);
   if (const auto swarm_time = view.swarm_time(now)) {
     const protocol::Course& course = view.beacon()->course;
@@ -67,7 +70,7 @@ std::string Metrics::text(const SwarmView& view, const KnownMission* mission, co
   }
   if (const auto& coordinator = view.coordinator()) {
     m.term.Add({}).Set(static_cast<double>(protocol::generation(coordinator->term)));
-    m.skew.Add({}).Set(seconds(coordinator->skew));
+    if (is_known(coordinator->skew)) m.skew.Add({}).Set(seconds(coordinator->skew));
     m.skew_budget.Add({}).Set(seconds(coordinator->skew_budget));
   }
   if (load.samples > 0) {
@@ -77,12 +80,13 @@ std::string Metrics::text(const SwarmView& view, const KnownMission* mission, co
   }
   for (const auto& [id, carrier] : view.carriers()) {
     const prometheus::Labels labels{{"carrier", std::to_string(id)}};
-    if (carrier.agent) {
-      m.clock.Add(labels).Set(seconds(carrier.agent->clock_uncertainty));
+    if (carrier.agent && !carrier.agents.silent(now)) {
+      const Duration uncertainty = carrier.agent->clock_uncertainty;
+      if (is_known(uncertainty)) m.clock.Add(labels).Set(seconds(uncertainty));
       m.drift.Add(labels).Set(carrier.agent->clock_drift_ppm);
       m.missed.Add(labels).Set(static_cast<double>(carrier.agent->beacons_missed));
     }
-    if (!carrier.vehicle) continue;
+    if (carrier.vehicles.silent(now)) continue;
     m.tension.Add(labels).Set(carrier.vehicle->tension_n);
     if (mission) m.margin.Add(labels).Set(margin_n(carrier.vehicle->tension_n, mission->mission.plan.limits));
     if (const auto off_m = view.deviation_m(id)) m.deviation.Add(labels).Set(*off_m);

@@ -1,7 +1,6 @@
 #pragma once
 // The swarm as figures for a monitoring system, in Prometheus' text form.
 
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -11,20 +10,9 @@
 
 namespace gyre::ground {
 
-class Metrics {
- public:
-  Metrics();
-  ~Metrics();
-  Metrics(const Metrics&) = delete;
-  Metrics& operator=(const Metrics&) = delete;
-
-  /// `load`: since the last call. `mission` may be unknown (nullptr): then there are no margins.
-  [[nodiscard]] std::string text(const SwarmView& view, const KnownMission* mission, const LoadWindow& load,
-                                 const std::optional<std::string>& complaint, LocalTime now);
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
+/// `load`: since the last call. `mission` may be unknown (nullptr): then there are no margins. What is not heard any
+/// more has no figure.
+[[nodiscard]] std::string metrics_text(const SwarmView& view, const KnownMission* mission, const LoadWindow& load,
+                                       const std::optional<std::string>& complaint, LocalTime now);
 
 }  // namespace gyre::ground

@@ -46,16 +46,21 @@ std::optional<std::string> PageFeed::take_metrics() {
 }
 
 void PageFeed::learn(LocalTime now) {
-  if (auto known = reader_.finished(); known && *known) {
-    mission_ = std::move(*known);
-    load_.emplace(mission_->mission.plan);
-    flown_ = second_ = {};
-  }
+  if (auto known = reader_.finished()) take_up(std::move(*known));
   const auto& told = view_.mission();
+  const bool too_long = told && told->text.empty();
+  if (too_long && mission_ && told->plan != mission_->plan) take_up(std::nullopt);
   const bool newer =
       told && !told->text.empty() && (!asked_ || asked_->plan != told->plan || asked_->text != told->text);
   if (newer && reader_.begin(*told)) asked_ = told;
   show_mission(now);
+}
+
+void PageFeed::take_up(std::optional<KnownMission> mission) {
+  mission_ = std::move(mission);
+  load_.reset();
+  if (mission_) load_.emplace(mission_->mission.plan);
+  flown_ = second_ = {};
 }
 
 /// Long, and hardly ever another one.
@@ -88,7 +93,7 @@ void PageFeed::step(LocalTime now, const std::vector<OwnProcess>& own) {
   if (now >= next_figures_) {
     next_figures_ = std::max(next_figures_ + kFigures, now);
     metrics_text_ =
-        metrics_.text(view_, mission_ ? &*mission_ : nullptr, std::exchange(second_, {}), complaint(now), now);
+        ground::metrics_text(view_, mission_ ? &*mission_ : nullptr, std::exchange(second_, {}), complaint(now), now);
   }
 }
 

@@ -44,6 +44,7 @@ class PageFeed {
 
  private:
   void learn(LocalTime now);
+  void take_up(std::optional<KnownMission> mission);
   void show_mission(LocalTime now);
   void show_frame(LocalTime now);
   void show_status(LocalTime now, const std::vector<OwnProcess>& own);
@@ -74,7 +75,6 @@ class PageFeed {
   LoadWindow second_;   ///< for the figures
   bool moved_ = false;  ///< whether it has begun
   HurtGauge hurt_;
-  Metrics metrics_;
   std::optional<std::string> metrics_text_;
   LocalTime next_frame_, next_status_, next_figures_;
 };

@@ -140,11 +140,11 @@ void set(page::FrameCarrier& out, const SwarmView& view, CarrierId id, LocalTime
   out.set_deviation_m(view.deviation_m(id).value_or(0.0));
 }
 
-void set_closest(const SwarmView& view, page::Frame& out) {
+void set_closest(const SwarmView& view, LocalTime now, page::Frame& out) {
   double closest_m = kInfinity;
   for (auto a = view.carriers().begin(); a != view.carriers().end(); ++a) {
     for (auto b = std::next(a); b != view.carriers().end(); ++b) {
-      if (!a->second.vehicle || !b->second.vehicle) continue;
+      if (a->second.vehicles.silent(now) || b->second.vehicles.silent(now)) continue;
       const double apart_m = (a->second.vehicle->position_w_m - b->second.vehicle->position_w_m).norm();
       if (apart_m >= closest_m) continue;
       closest_m = apart_m;
@@ -248,7 +248,7 @@ std::string frame_json(const Shown& shown, const LoadWindow& window) {
   out.set_rotation_deg(window.rotation_max_deg);
   out.set_residual(window.residual_max);
   for (const CarrierId id : view.carrier_ids()) set(*out.add_carriers(), view, id, shown.now);
-  set_closest(view, out);
+  set_closest(view, shown.now, out);
   return json_of(out);
 }
 
@@ -273,7 +273,15 @@ std::string status_json(const Shown& shown, const std::optional<std::string>& co
     if (coordinator->skew < std::chrono::hours(1)) out.set_skew_s(seconds(coordinator->skew));
     out.set_skew_budget_s(seconds(coordinator->skew_budget));
   }
-  for (const ProcessLine& line : process_list(view, shown.now)) set(*out.add_processes(), line, view, own);
+  std::vector<ProcessLine> lines = process_list(view, shown.now);
+  for (const OwnProcess& one : own) {
+    const auto same = [&one](const ProcessLine& line) { return line.name == one.name; };
+    if (std::any_of(lines.begin(), lines.end(), same)) continue;
+    lines.emplace_back();  // it has said nothing yet, and may be started again all the same
+    lines.back().name = one.name;
+    lines.back().state = "not heard";
+  }
+  for (const ProcessLine& line : lines) set(*out.add_processes(), line, view, own);
   for (const MissingThing& thing : missing(view, shown.now)) {
     page::Missing* const one = out.add_missing();
     one->set_who(thing.who);

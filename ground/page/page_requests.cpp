@@ -13,6 +13,9 @@
 namespace gyre::ground {
 namespace {
 
+constexpr double kMostForce_n = 1e6;
+constexpr double kLongestPush_s = 10.0;
+
 bool within(double amount, double most) {
   return std::isfinite(amount) && amount >= 0.0 && amount <= most;
 }
@@ -93,14 +96,15 @@ Result<HurtRequest> hurt_of(const std::string& json) {
   request.process = asked.process();
   request.amount = asked.amount();
   request.duration_s = asked.duration_s();
+  if (request.kind != HurtKind::kPush && request.process.empty())
+    return Error{"process: the name of one of this flight"};
   if (request.kind == HurtKind::kLose && !within(request.amount, 100.0)) return Error{"amount: percent, 0 to 100"};
   if (!within(std::abs(request.amount), 1e6)) return Error{"amount: at most a million"};
   if (request.kind != HurtKind::kPush) return request;
   if (asked.force_w_n_size() != 3) return Error{"force_w_n: three numbers, newtons in the world's axes"};
   request.force_w_n = {asked.force_w_n(0), asked.force_w_n(1), asked.force_w_n(2)};
-  if (!request.force_w_n.allFinite() || !within(request.duration_s, 10.0)) {
-    return Error{"force_w_n and duration_s: finite, and at most 10 s"};
-  }
+  if (!within(request.force_w_n.norm(), kMostForce_n)) return Error{"force_w_n: at most a meganewton"};
+  if (!within(request.duration_s, kLongestPush_s)) return Error{"duration_s: 0 to 10 s"};
   return request;
 }
 

@@ -9,7 +9,6 @@
 #include "common/base/text.hpp"
 #include "ground/page/bounded_server.hpp"
 #include "ground/page/core/door.hpp"
-#include "ground/page/page_bundle.hpp"
 #include "ground/page/page_json.hpp"
 
 namespace gyre::ground {
@@ -23,10 +22,13 @@ using Handled = httplib::Server::HandlerResponse;
 constexpr std::size_t kShortRequests = 16;
 /// Longer than an order may take (OrderDesk).
 constexpr auto kAnswerPatience = std::chrono::seconds(25);
+/// Whoever holds the promise may not know that the server ends.
+constexpr auto kEndIsSeen = std::chrono::milliseconds(100);
 /// A stream that has nothing to say says so, or what lies between closes it.
 constexpr Duration kStillThere = std::chrono::seconds(5);
 constexpr Duration kLook = std::chrono::seconds(1);
 
+constexpr const char* kTheServerEnds = "the server ends";
 constexpr const char* kNoPage =
     "<!doctype html><meta charset=utf-8><title>Gyre</title><p>This gyre was built without the page: Node and npm were "
     "missing then. Install them (deploy/install build), build again, and it is here.<p>What the swarm says is at "
@@ -56,7 +58,7 @@ struct Watcher {
 }  // namespace
 
 struct PageServer::Impl {
-  explicit Impl(const PageServerOptions& asked) : options(asked), server(ServerBounds{}) {}
+  explicit Impl(const PageServerOptions& asked) : options(asked), server(asked.bounds) {}
 
   void route();
   [[nodiscard]] bool admits(const Request& request, Response& response);
@@ -101,12 +103,20 @@ bool PageServer::Impl::admits(const Request& request, Response& response) {
 
 void PageServer::Impl::route() {
   server.set_pre_routing_handler([this](const Request& request, Response& response) {
-    const std::string host = request.get_header_value("Host");
-    const std::string name = host.substr(0, host.rfind(':'));
-    const bool known = std::find(options.hosts.begin(), options.hosts.end(), name) != options.hosts.end();
-    if (known || is_own_host(host)) return Handled::Unhandled;
-    refuse(response, 403, "open this page by an address of the machine, or name the machine to the server with --host");
-    return Handled::Handled;
+    if (!is_own_host(request.get_header_value("Host"), options.hosts)) {
+      refuse(response, 403,
+             "open this page by an address of the machine, or name the machine to the server with --host");
+      return Handled::Handled;
+    }
+    if (request.has_header("Content-Encoding")) {  // a few bytes could become more than there is memory
+      refuse(response, 415, "send it as it is, not compressed");
+      return Handled::Handled;
+    }
+    if (request.has_header("Range")) {  // a few of them could ask for the same bytes a thousand times
+      refuse(response, 416, "ask for the whole of it");
+      return Handled::Handled;
+    }
+    return Handled::Unhandled;
   });
   httplib::Headers headers{{"X-Content-Type-Options", "nosniff"},
                            {"X-Frame-Options", "DENY"},
@@ -121,12 +131,17 @@ void PageServer::Impl::route() {
     refuse(response, 500, "the server could not work with that");
   });
 
-  server.Get("/", [](const Request&, Response& response) {
-    const PageBundle page = page_bundle();
+  server.Get("/", [this](const Request&, Response& response) {
+    const PageBundle& page = options.page;
     if (page.html_gzip.empty()) return response.set_content(kNoPage, "text/html; charset=utf-8");
     response.set_header("Content-Encoding", "gzip");
     response.set_header("Content-Security-Policy", std::string(page.policy));
-    response.set_content(std::string(page.html_gzip), "text/html; charset=utf-8");
+    // Not as content: that is compressed once more for a browser that takes compressed pages.
+    const std::string_view html = page.html_gzip;
+    response.set_content_provider(html.size(), "text/html; charset=utf-8",
+                                  [html](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+                                    return sink.write(html.data() + offset, length), sink.is_writable();
+                                  });
   });
   server.Get("/api/events", [this](const Request&, Response& response) { events(response); });
   server.Get("/api/time", [this](const Request&, Response& response) {
@@ -168,15 +183,19 @@ void PageServer::Impl::ask(Response& response, std::variant<protocol::Command, H
   std::future<Answer> answer = promise->get_future();
   {
     const std::lock_guard<std::mutex> lock(mutex);
-    if (!closed) requests.push_back({std::move(wish), std::move(promise)});
+    if (closed) return refuse(response, 503, kTheServerEnds);
+    requests.push_back({std::move(wish), std::move(promise)});
   }
-  if (answer.wait_for(kAnswerPatience) != std::future_status::ready) {
-    return refuse(response, 504, "no answer came in time");
+  const LocalTime patient_until = local_now() + kAnswerPatience;
+  while (answer.wait_for(kEndIsSeen) != std::future_status::ready) {
+    if (local_now() > patient_until) return refuse(response, 504, "no answer came in time");
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (closed) return refuse(response, 503, kTheServerEnds);
   }
   try {
     response.set_content(answer_json(answer.get()), "application/json");
   } catch (const std::future_error&) {  // nobody is left to keep the promise
-    refuse(response, 503, "the server ends");
+    refuse(response, 503, kTheServerEnds);
   }
 }
 
@@ -247,13 +266,14 @@ PageServer::~PageServer() {
     impl_->closed = true;
     impl_->requests.clear();  // breaks the promises
   }
-  impl_->server.stop();
+  impl_->server.end();
   impl_->listening.join();
 }
 
 std::string PageServer::url(bool with_token) const {
   const std::string& address = impl_->options.address;
-  const std::string host = address == "0.0.0.0" ? "127.0.0.1" : address;
+  std::string host = address == "0.0.0.0" ? "127.0.0.1" : address == "::" ? "::1" : address;
+  if (host.find(':') != std::string::npos) host = "[" + host + "]";  // RFC 3986: or its colons would begin the port
   return "http://" + host + text(":%d/", impl_->port) + (with_token ? "#token=" + impl_->options.token : "");
 }
 

@@ -20,7 +20,9 @@
 
 #include "common/base/result.hpp"
 #include "common/protocol/messages.hpp"
+#include "ground/page/page_bundle.hpp"
 #include "ground/page/page_requests.hpp"
+#include "ground/page/server_bounds.hpp"
 #include "ground/page/stage.hpp"
 
 namespace gyre::ground {
@@ -31,6 +33,8 @@ struct PageServerOptions {
   std::string token;                  ///< what orders have to show; not empty
   std::vector<std::string> hosts;     ///< names by which this machine is called, beside addresses and "localhost"
   bool takes_orders = true;
+  PageBundle page = page_bundle();
+  ServerBounds bounds = {};
 };
 
 inline constexpr int kFirstPort = 8480;

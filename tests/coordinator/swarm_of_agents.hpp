@@ -56,6 +56,7 @@ class SwarmOfAgents {
     replies.insert(replies.end(), out.replies.begin(), out.replies.end());
     if (out.finished) finished = out.finished;
     if (out.status) status = out.status;
+    if (out.mission) missions.push_back(*out.mission);
     for (const protocol::PlanOffer& offer : out.offers) {
       EXPECT_LE(offer.slices.size(), protocol::kMaxPlans);
       offers_[offer.carrier] = offer;
@@ -136,6 +137,7 @@ class SwarmOfAgents {
   std::optional<Outcome> finished;
   std::optional<protocol::Beacon> beacon;
   std::optional<protocol::CoordinatorStatus> status;
+  std::vector<protocol::MissionText> missions;  ///< all that were told, the oldest first
   std::map<CarrierId, protocol::Setpoint> setpoints;
   int twin_setpoints = 0;
   std::map<CarrierId, protocol::AgentStatus> statuses;
@@ -193,10 +195,7 @@ class SwarmOfAgents {
 
   void hear(CarrierId id, const agent::Outputs& out) {
     if (mute.count(id) > 0) return;
-    if (out.held) {
-      held_[id] = *out.held;
-      tell(*out.held);
-    }
+    if (out.held) tell(held_[id] = *out.held);
     if (out.time_request) tell(TimeRequestArrived{*out.time_request, now});
     if (out.status) {
       protocol::AgentStatus told = *out.status;

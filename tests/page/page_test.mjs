@@ -137,6 +137,11 @@ async function watch_and_command(browser, url, owns) {
   await check('carriers move', () => carriers_move(page));
   await check('plots fill', () => plots_fill(page));
   await check('the token left the address', async () => need(!(await page.url()).includes('token'), page.url()));
+  await check('text of the wire stays text', async () => {
+    const within = ['log', 'processes', 'missing-list', 'headline', 'toasts'];
+    const made = await page.evaluate((ids) => ids.flatMap((id) => [...document.querySelectorAll(`#${id} :is(img, script, a, iframe, em, u)`)]).length, within);
+    need(made === 0, 'markup came over the wire');
+  });
   await check('pictures per second, software rendering', async () => {
     const rate = await pace(page);
     if (rate < 15) console.log(`      below the 15 that are wanted of a machine with nothing else to do`);
@@ -163,7 +168,7 @@ async function watch_and_command(browser, url, owns) {
     await page.keyboard.press('Escape');
     await until(page, () => !document.getElementById('help').open);
     await page.keyboard.press('2');
-    await until(page, () => document.querySelectorAll('#processes tr[aria-selected=true]').length === 1);
+    await until(page, () => document.querySelectorAll('#processes tr[data-selected=true]').length === 1);
     const paper = await page.$eval('html', (html) => html.dataset.paper);
     await page.keyboard.press('d');
     await until(page, (was) => document.documentElement.dataset.paper !== was, paper);
@@ -255,6 +260,20 @@ async function server_dies(page, server, port) {
   });
 }
 
+/** Printed, not judged: what a machine makes of it is the machine's. */
+async function crowd(browser) {
+  await check('forty-eight carriers move; pictures per second, software rendering', async () => {
+    const server = await mock(await free_port(), '--n', '48');
+    const page = await open(browser, server.url);
+    await alive(page);
+    const moved = await carriers_move(page);
+    const rate = await pace(page);
+    await page.close();
+    await server.kill();
+    return `${moved}, ${rate}`;
+  });
+}
+
 async function recording(browser) {
   await check('a recording takes no orders, and the page offers none', async () => {
     const server = await mock(await free_port(), '--recording');
@@ -291,6 +310,7 @@ async function main() {
       await page.bringToFront();
       await server_dies(page, server, port);
       await recording(browser);
+      await crowd(browser);
     }
     await check('no errors and no warnings in the console', async () => need(noises.length === 0, noises.join(' | ')));
   } finally {

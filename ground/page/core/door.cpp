@@ -6,8 +6,16 @@
 namespace gyre::ground {
 namespace {
 
+/// A name has up to 253 letters (RFC 1035), and a port six more.
+constexpr std::size_t kLongestHost = 260;
+
 bool all_of(std::string_view text, std::string_view allowed) {
   return !text.empty() && text.find_first_not_of(allowed) == std::string_view::npos;
+}
+
+bool same_name(std::string_view a, std::string_view b) {
+  const auto same = [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
 }
 
 /// "host:port" without ":port".
@@ -27,10 +35,12 @@ bool same_token(std::string_view told, std::string_view token) {
   return differs == 0 && !token.empty();
 }
 
-bool is_own_host(std::string_view host) {
-  if (host.empty() || host.size() > 64) return false;
+bool is_own_host(std::string_view host, const std::vector<std::string>& names) {
+  if (host.empty() || host.size() > kLongestHost) return false;
   const std::string_view name = without_port(host);
-  if (name == "localhost") return true;
+  if (name.empty()) return false;
+  const auto called = [name](const std::string& one) { return same_name(name, one); };
+  if (same_name(name, "localhost") || std::any_of(names.begin(), names.end(), called)) return true;
   if (name.size() > 2 && name.front() == '[' && name.back() == ']') {
     return all_of(name.substr(1, name.size() - 2), "0123456789abcdefABCDEF:.");
   }

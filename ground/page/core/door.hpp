@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/base/time.hpp"
 
@@ -17,9 +18,9 @@ namespace gyre::ground {
 /// Takes as long whatever is wrong with it.
 [[nodiscard]] bool same_token(std::string_view told, std::string_view token);
 
-/// Of a Host header: "127.0.0.1:8480", "[::1]:8480", "localhost". Other names are nobody's whom we know; an empty one
-/// is refused as well.
-[[nodiscard]] bool is_own_host(std::string_view host);
+/// Of a Host header: "127.0.0.1:8480", "[::1]:8480", "localhost", or one of `names`, by which this machine is called.
+/// Other names are nobody's whom we know; an empty one is refused as well.
+[[nodiscard]] bool is_own_host(std::string_view host, const std::vector<std::string>& names = {});
 
 /// Of an Origin header, "http://127.0.0.1:8480": whether it is the host's own page; an empty one is no browser's.
 [[nodiscard]] bool is_same_origin(std::string_view origin, std::string_view host);

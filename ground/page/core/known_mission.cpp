@@ -10,21 +10,34 @@
 namespace gyre::ground {
 namespace {
 
-/// Corners of one face in order around it, as a fan of triangles.
-void add_face(const std::vector<Eigen::Vector3d>& points, std::vector<std::uint32_t> corners,
-              const Eigen::Vector3d& outwards, std::vector<std::uint32_t>& triangles) {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (const std::uint32_t i : corners) centre += points[i] / static_cast<double>(corners.size());
-  const Eigen::Vector3d x = (points[corners.front()] - centre).normalized();
-  const Eigen::Vector3d y = outwards.cross(x);
-  const auto angle = [&](std::uint32_t i) {
-    const Eigen::Vector3d arm = points[i] - centre;
-    return std::atan2(arm.dot(y), arm.dot(x));
+constexpr double kFlat_m = 1e-9;      ///< as high above a face is in it
+constexpr double kSliver_m2 = 1e-12;  ///< so large a triangle is none
+
+/// The corners of one face in order around it, counter-clockwise as `outwards` sees it (Andrew's monotone chain): what
+/// lies on an edge or inside the face is no corner.
+std::vector<std::uint32_t> around(const std::vector<Eigen::Vector3d>& points, const std::vector<std::uint32_t>& face,
+                                  const Eigen::Vector3d& outwards) {
+  const Eigen::Vector3d x = outwards.unitOrthogonal(), y = outwards.cross(x);
+  const auto flat = [&](std::uint32_t i) { return Eigen::Vector2d(points[i].dot(x), points[i].dot(y)); };
+  std::vector<std::uint32_t> sorted = face;
+  std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const Eigen::Vector2d p = flat(a), q = flat(b);
+    return p.x() != q.x() ? p.x() < q.x() : p.y() < q.y();
+  });
+  std::vector<std::uint32_t> ring;
+  const auto add = [&](std::uint32_t next, std::size_t least) {
+    while (ring.size() >= least + 2) {
+      const Eigen::Vector2d a = flat(ring[ring.size() - 2]), b = flat(ring.back()), c = flat(next);
+      if ((b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x()) > kSliver_m2) break;
+      ring.pop_back();
+    }
+    ring.push_back(next);
   };
-  std::sort(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) { return angle(a) < angle(b); });
-  for (std::size_t i = 2; i < corners.size(); ++i) {
-    triangles.insert(triangles.end(), {corners[0], corners[i - 1], corners[i]});
-  }
+  for (const std::uint32_t i : sorted) add(i, 0);
+  const std::size_t below = ring.size() - 1;  // and back along the other side
+  for (auto i = std::next(sorted.rbegin()); i != sorted.rend(); ++i) add(*i, below);
+  ring.pop_back();  // it began there
+  return ring;
 }
 
 }  // namespace
@@ -56,7 +69,7 @@ std::vector<std::uint32_t> hull_faces(const std::vector<Eigen::Vector3d>& points
     for (std::uint32_t j = i + 1; j < n; ++j) {
       for (std::uint32_t k = j + 1; k < n; ++k) {
         Eigen::Vector3d normal = (points_m[j] - points_m[i]).cross(points_m[k] - points_m[i]);
-        if (normal.norm() < 1e-12) continue;
+        if (normal.norm() < kSliver_m2) continue;
         normal.normalize();
         // All on one side: the plane through these three carries a face, and so do others that lie in it.
         double least = 0.0, most = 0.0;
@@ -65,11 +78,14 @@ std::vector<std::uint32_t> hull_faces(const std::vector<Eigen::Vector3d>& points
           const double height = normal.dot(points_m[m] - points_m[i]);
           least = std::min(least, height);
           most = std::max(most, height);
-          if (std::abs(height) < 1e-9) face.push_back(m);
+          if (std::abs(height) < kFlat_m) face.push_back(m);
         }
-        const bool inside_below = most<1e-9, inside_above = least> - 1e-9;
+        const bool inside_below = most < kFlat_m;
+        const bool inside_above = -least < kFlat_m;
         if (inside_below == inside_above || !known.insert(face).second) continue;
-        add_face(points_m, face, inside_below ? normal : Eigen::Vector3d(-normal), triangles);
+        const auto ring = around(points_m, face, inside_below ? normal : Eigen::Vector3d(-normal));
+        for (std::size_t c = 2; c < ring.size(); ++c)
+          triangles.insert(triangles.end(), {ring[0], ring[c - 1], ring[c]});
       }
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 
 namespace gyre::ground {
 namespace {
@@ -30,8 +31,10 @@ std::vector<std::string> used_types(const std::string& package, const std::strin
     const std::string type = line.substr(0, line.find_first_of("[<"));  // without array and bound
     if (type.empty() || is_primitive(type)) continue;
     const std::size_t slash = type.find('/');
-    used.push_back(slash == std::string::npos ? package + "/msg/" + type
-                                              : type.substr(0, slash) + "/msg" + type.substr(slash));
+    std::string name = slash == std::string::npos ? package : type.substr(0, slash);
+    name += "/msg/";
+    name += slash == std::string::npos ? type : type.substr(slash + 1);
+    used.push_back(std::move(name));
   }
   return used;
 }

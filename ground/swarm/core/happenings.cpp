@@ -1,5 +1,7 @@
 #include "ground/swarm/core/happenings.hpp"
 
+#include <algorithm>
+
 #include "common/base/angle.hpp"
 #include "common/base/text.hpp"
 #include "common/protocol/term.hpp"
@@ -12,6 +14,15 @@ using Level = Notice::Level;
 
 std::string agent_name(CarrierId id) {
   return text("agent %u", id);
+}
+
+/// Persons who ask at once say their words in turns, so the last one is not enough to know.
+bool first_time(std::deque<std::uint64_t>& told, std::uint64_t id) {
+  constexpr std::size_t kAtOnce = 64;
+  if (std::find(told.begin(), told.end(), id) != told.end()) return false;
+  told.push_back(id);
+  if (told.size() > kAtOnce) told.pop_front();
+  return true;
 }
 
 }  // namespace
@@ -106,14 +117,12 @@ void Happenings::on(LocalTime now, const protocol::Health& health) {
 }
 
 void Happenings::on(LocalTime now, const protocol::Command& command) {
-  if (command.id == command_) return;
-  command_ = command.id;
+  if (!first_time(commands_, command.id)) return;
   tell(now, Level::kInfo, "a person", "asks: " + order_words(command));
 }
 
 void Happenings::on(LocalTime now, const protocol::CommandReply& reply) {
-  if (reply.id == reply_) return;
-  reply_ = reply.id;
+  if (!first_time(replies_, reply.id)) return;
   tell(now, reply.done ? Level::kInfo : Level::kWarning, "coordinator", "answers: " + reply.text);
 }
 

@@ -73,7 +73,7 @@ class Happenings {
   bool leaderless_ = false;
   std::map<CarrierId, Agent> agents_;
   std::map<std::string, Process> processes_;
-  std::uint64_t command_ = 0, reply_ = 0;  ///< told last: both are said again until they are heard
+  std::deque<std::uint64_t> commands_, replies_;  ///< told lately: both are said again until they are heard
 };
 
 }  // namespace gyre::ground

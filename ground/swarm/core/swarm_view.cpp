@@ -1,6 +1,7 @@
 #include "ground/swarm/core/swarm_view.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/protocol/follow.hpp"
 #include "common/protocol/sanity.hpp"
@@ -15,6 +16,15 @@ constexpr double kOnItsWay_s = 0.01;
 
 bool is_carrier(CarrierId id) {
   return id >= 1 && id <= kMaxCarrierId;
+}
+
+/// Those that there can be, each of them once: who shows them keeps a place for each.
+std::vector<CarrierId> possible(const std::vector<CarrierId>& told) {
+  std::vector<CarrierId> ids;
+  for (const CarrierId id : told) {
+    if (is_carrier(id) && std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+  }
+  return ids;
 }
 
 /// Of a coordinator that leads no longer, while a later one is heard: two may be heard for a moment, as one takes over.
@@ -42,7 +52,11 @@ bool SwarmView::on(LocalTime arrived, const protocol::Beacon& beacon) {
 bool SwarmView::on(LocalTime arrived, const protocol::CoordinatorStatus& status) {
   if (is_outdated(coordinator_, status, coordinator_heard_, arrived)) return false;
   coordinator_ = status;
+  coordinator_->carriers = possible(status.carriers);
   coordinator_heard_.heard(arrived);
+  if (outdated_mission_ && outdated_mission_->term == status.term) {
+    mission_ = std::exchange(outdated_mission_, std::nullopt);
+  }
   return true;
 }
 
@@ -87,7 +101,10 @@ bool SwarmView::on(LocalTime arrived, const protocol::Health& health) {
 }
 
 bool SwarmView::on(LocalTime arrived, const protocol::MissionText& mission) {
-  if (is_outdated(mission_, mission, coordinator_heard_, arrived)) return false;
+  if (is_outdated(mission_, mission, coordinator_heard_, arrived)) {
+    outdated_mission_ = mission;  // it is said once: who says it may lead when the other one is gone
+    return false;
+  }
   mission_ = mission;
   return true;
 }

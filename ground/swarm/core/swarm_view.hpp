@@ -111,6 +111,7 @@ class SwarmView {
   std::optional<protocol::CoordinatorStatus> coordinator_;
   protocol::Liveness coordinator_heard_{kWordSilence};
   std::optional<protocol::MissionText> mission_;
+  std::optional<protocol::MissionText> outdated_mission_;  ///< the last of a term that is over, or is still to come
   std::map<CarrierId, CarrierView> carriers_;
   std::optional<protocol::LoadState> load_;
   protocol::Incumbent loads_{kStreamSilence};

@@ -1,7 +1,7 @@
 // A recording, read by others: by the format's own library in both of its ways, checksums and all, and each message by
 // the type that stands in the file. What they read is held against what our own reader says of the same file.
 //
-//   node judge.mjs RECORDING SAID.json      exit code 1 and a list where they differ
+//   node judge.mjs RECORDING SAID      exit code 1 and a list where they differ
 
 import { readFileSync } from "node:fs";
 import { isDeepStrictEqual } from "node:util";

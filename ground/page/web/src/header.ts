@@ -4,13 +4,14 @@ import { now_s } from './connection';
 import { found, mark, say } from './dom';
 import type { Swarm } from './swarm';
 import type { TimeSync } from './time_sync';
-import { clock, degrees, headline, percent, seconds } from './words';
+import { clock, degrees, good_displacement, headline, percent, seconds } from './words';
 import { kDelay_s, phase_between } from './playback';
 
 const kRing = 2 * Math.PI * 26;  // the length of the ring in index.html
 
 export class Header {
   private said_s = 0;
+  private announced = '';
 
   constructor(private readonly swarm: Swarm, private readonly time: TimeSync) {
     const turn = (): void => {
@@ -55,14 +56,24 @@ export class Header {
       frame: swarm.frame,
       status: swarm.status,
       within_m: swarm.within_m,
+      good_m: good_displacement(swarm.mission),
     });
     mark(document.body, 'data-mood', state.mood);
     say(found('headline'), state.line);
+    this.announce(state.line);
     say(found('subline'), state.sub);
     say(found('mission-name'), swarm.mission?.name || 'no mission heard yet');
     document.title = swarm.online ? `${state.line} · Gyre` : 'Gyre: looking for the server';
     this.say_connection(now);
     this.say_beside();
+  }
+
+  /** To those who listen: a new state, and not every new figure of the same one. */
+  private announce(line: string): void {
+    const state = line.replace(/[\d.]+/g, '');
+    if (state === this.announced) return;
+    this.announced = state;
+    say(found('announced'), line);
   }
 
   private say_connection(now: number): void {
@@ -77,7 +88,7 @@ export class Header {
     say(found('skew'), parts.join(' · '));
     found('skew').title = "How surely this page knows the server's time, and how far its picture is behind it";
     const domain = hello === undefined ? '' : `domain ${hello.domain}`;
-    say(found('mission-more'), [mission?.plan ? `plan ${mission.plan}` : '', domain].filter(Boolean).join(' · '));
+    say(found('mission-more'), [mission?.plan ? `plan ${mission.plan}` : '', domain, mission?.complete === false ? 'its shape and limits were not heard' : ''].filter(Boolean).join(' · '));
   }
 
   private say_beside(): void {

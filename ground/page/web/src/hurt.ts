@@ -58,8 +58,8 @@ export class HurtPanel {
     if (!any) return;
     say(found('outcome-what'), hurt.text);
     say(found('outcome-moved'), millimetres(hurt.moved_max_m));
-    const before = `${millimetres(hurt.before_m)} in the second before`;
-    const calm = hurt.calm_after_s < 0 ? `${seconds(hurt.since_s)} ago, not yet calm` : `calm again after ${seconds(hurt.calm_after_s)}`;
+    const before = `before: ${millimetres(hurt.before_m)}`;
+    const calm = hurt.calm_after_s < 0 ? `not calm yet, after ${seconds(hurt.since_s)}` : `calm after ${seconds(hurt.calm_after_s)}`;
     say(found('outcome-more'), `${before}  ·  ${calm}`);
   }
 

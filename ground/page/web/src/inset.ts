@@ -162,7 +162,13 @@ export class Inset {
     const newest = this.trace[this.trace.length - 1];
     if (newest === undefined) return;
     say(found('moved-now'), millimetres(this.swarm.within_m ?? Math.hypot(...newest.at)));
-    const times = this.times >= 1 ? String(this.times) : '1/10';
-    say(found('magnified'), `magnified ${times} times`);
+    const { rotation_deg = 0, residual = 0 } = this.swarm.frame ?? {};
+    say(found('inset-more'), `turned ${small(rotation_deg)}°, ${small(residual * 100)} % of its weight unheld`);
+    say(found('magnified'), this.times > 1 ? `magnified ${this.times} times` : this.times === 1 ? 'true to size' : 'a tenth of its size');
   }
+}
+
+function small(value: number): string {
+  if (!Number.isFinite(value)) return '?';
+  return value < 1e-4 ? '< 0.0001' : value.toPrecision(1).includes('e') ? value.toFixed(0) : String(Number(value.toPrecision(2)));
 }

@@ -56,6 +56,11 @@ export class Playback {
     return Math.max(kDelay_s, now_s + this.offset_s - newest.server_time_s);
   }
 
+  /** The frames after one time of the server and up to another. */
+  during(from_s: number, to_s: number): Frame[] {
+    return this.frames.filter((frame) => frame.server_time_s > from_s && frame.server_time_s <= to_s);
+  }
+
   at(now_s: number): Moment | undefined {
     const newest = this.newest;
     if (newest === undefined || this.offset_s === undefined) return undefined;

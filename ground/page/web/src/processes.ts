@@ -70,7 +70,9 @@ export class Processes {
     for (const process of status.processes) this.draw_row(process);
     this.draw_missing(status);
     const unwell = status.processes.filter((process) => !process.well).length;
-    say(found('processes-count'), unwell === 0 ? `all ${status.processes.length} well` : `${unwell} of ${status.processes.length} not well`);
+    const well = unwell === 0 ? `all ${status.processes.length} well` : `${unwell} of ${status.processes.length} not well`;
+    const allowed = status.skew_budget_s > 0 ? `, ${seconds(status.skew_budget_s)} allowed` : '';
+    say(found('processes-count'), status.skew_s < 0 ? well : `${well} · clocks within ${seconds(status.skew_s)}${allowed}`);
     mark(found('processes-count'), 'data-bad', String(unwell > 0));
   }
 
@@ -80,7 +82,8 @@ export class Processes {
     row.dot.style.setProperty('--tone', process.carrier !== 0 && index >= 0 ? carrier_tone(index, this.theme.paper) : 'transparent');
     mark(row.line, 'data-well', String(process.well));
     const chosen = this.swarm.process === process.name || (process.carrier !== 0 && this.swarm.selected.includes(process.carrier));
-    mark(row.line, 'aria-selected', String(chosen));
+    mark(row.line, 'data-selected', String(chosen));
+    mark(row.button, 'aria-pressed', String(chosen));
     for (const column of kColumns) say(row.cells[column], cell_words(process, column));
     if (row.cells.state.title !== process.complaint) row.cells.state.title = process.complaint;
     const { late, duplicate, wrong_term, nonsense } = process.dropped;

@@ -29,9 +29,11 @@ export class Theme {
   }
 
   toggle(): void {
-    this.chosen = this.paper === 'light' ? 'dark' : 'light';
+    const wanted = this.paper === 'light' ? 'dark' : 'light';
+    this.chosen = wanted === (kDark.matches ? 'dark' : 'light') ? undefined : wanted;  // back to the system's: with it again
     try {
-      localStorage.setItem(kStored, this.chosen);
+      if (this.chosen === undefined) localStorage.removeItem(kStored);
+      else localStorage.setItem(kStored, this.chosen);
     } catch {
       // for this page alone
     }

@@ -1,6 +1,6 @@
 // Figures and states in words. Pure: told everything, touches nothing.
 
-import type { Frame, Process, Status } from './messages';
+import type { Frame, Mission, Process, Status } from './messages';
 
 /** "0.003 mm": as many digits as a person can use, never fewer than say that something moved. */
 export function millimetres(metres: number): string {
@@ -74,6 +74,13 @@ export interface Situation {
   frame: Frame | undefined;
   status: Status | undefined;
   within_m: number | undefined;  // the load's greatest displacement lately
+  good_m: number;                // up to here a load counts as still
+}
+
+/** Up to where a load counts as still: the mission says, or a millimetre does. */
+export function good_displacement(mission: Mission | undefined): number {
+  const told = mission?.displacement_max_m ?? 0;
+  return told > 0 && Number.isFinite(told) ? told : 0.001;
 }
 
 const kRest = 0.001;  // a pace below is none that an eye sees
@@ -85,21 +92,27 @@ function motion(frame: Frame | undefined): string {
   return frame.pace > kFull ? 'In motion' : `In motion at ${percent(frame.pace)} of its pace`;
 }
 
-function hangs(within_m: number | undefined): string {
-  return within_m === undefined ? 'the load is not heard' : `the load hangs within ${millimetres(within_m)}`;
+function hangs({ within_m, good_m }: Situation): string {
+  if (within_m === undefined) return 'the load is not heard';
+  return `the load ${within_m <= good_m ? 'hangs' : 'swings'} within ${millimetres(within_m)}`;
+}
+
+function capital(words: string): string {
+  return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
 function behind(situation: Situation): string {
   const { frame, status } = situation;
   const parts: string[] = [];
-  if (frame !== undefined && frame.carriers.length > 0) {
+  if (status?.complaint) parts.push(capital(`${motion(frame)}: ${hangs(situation)}`));
+  else if (frame !== undefined && frame.carriers.length > 0) {
     const speeds = frame.carriers.filter((carrier) => carrier.heard).map((carrier) => carrier.speed_m_s);
     const flying = counted(frame.carriers.length, 'carrier');
     parts.push(frame.pace < kRest ? `${flying}, standing` : `${flying} never stop${frame.carriers.length === 1 ? 's' : ''}: ${spread(speeds, 'm/s')}`);
   }
   if (status !== undefined && status.displacement_max_m > 0)
     parts.push(`${millimetres(status.displacement_max_m)} at most since the motion began`);
-  if (status !== undefined && status.course !== '') parts.push(status.course);
+  if (status !== undefined && status.course.includes('->')) parts.push(status.course);
   return parts.join('  ·  ');
 }
 
@@ -119,14 +132,14 @@ export function headline(situation: Situation): Headline {
   }
   if (status === undefined || frame === undefined)
     return { mood: 'waiting', line: 'Waiting for a word of the swarm …', sub: 'The server is there.' };
-  const still = hangs(situation.within_m);
+  const still = hangs(situation);
   if (status.complaint !== '')
-    return { mood: 'complaint', line: status.complaint, sub: `${motion(frame)}: ${still}  ·  ${behind(situation)}` };
+    return { mood: 'complaint', line: capital(status.complaint), sub: behind(situation) };
   if (!status.connected && !situation.recording)
     return { mood: 'complaint', line: `No coordinator is heard; ${still}`, sub: behind(situation) };
   if (status.missing.length > 0 && frame.pace < kRest) {
     const missing = status.missing.length === 1 ? 'one thing is missing' : `${status.missing.length} things are missing`;
-    return { mood: 'waiting', line: `Getting ready: ${missing} before the flight may begin`, sub: behind(situation) };
+    return { mood: 'waiting', line: `Getting ready: ${missing}`, sub: behind(situation) };
   }
   return { mood: 'calm', line: `${motion(frame)}: ${still}`, sub: behind(situation) };
 }

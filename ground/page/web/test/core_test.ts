@@ -153,14 +153,15 @@ test('figures have as many digits as somebody can use', () => {
 test('the headline says what counts most', () => {
   const flying = frame({ pace: 1, carriers: [{ id: 1, heard: true, speed_m_s: 1 }] });
   const calm = messages.Status.read({ connected: true, calm: true });
-  const base = { online: true, ever: true, frames_age_s: 0, recording: false, frame: flying, status: calm, within_m: 3e-6 };
+  const base = { online: true, ever: true, frames_age_s: 0, recording: false, frame: flying, status: calm, within_m: 3e-6, good_m: 0.001 };
   assert.equal(headline(base).line, 'In motion: the load hangs within 0.003 mm');
   assert.match(headline({ ...base, frame: frame({ pace: 0 }) }).line, /^At rest: the load hangs/);
+  assert.match(headline({ ...base, within_m: 0.05 }).line, /the load swings within 50.0 mm/);
   assert.match(headline({ ...base, online: false }).line, /server is gone/);
   assert.match(headline({ ...base, online: false, ever: false }).line, /Looking for the server/);
   assert.match(headline({ ...base, frames_age_s: 4 }).line, /Nothing is heard of the swarm for 4 s/);
   const complains = messages.Status.read({ connected: true, complaint: 'agent 3 has ended' });
-  assert.deepEqual([headline({ ...base, status: complains }).line, headline({ ...base, status: complains }).mood], ['agent 3 has ended', 'complaint']);
+  assert.deepEqual([headline({ ...base, status: complains }).line, headline({ ...base, status: complains }).mood], ['Agent 3 has ended', 'complaint']);
   assert.match(headline({ ...base, status: messages.Status.read({}) }).line, /No coordinator/);
   const missing = messages.Status.read({ connected: true, missing: [{ who: 'agent 3', what: 'was not heard' }] });
   assert.match(headline({ ...base, status: missing, frame: frame({ pace: 0 }) }).line, /one thing is missing/);

@@ -173,6 +173,7 @@ createServer((request, reply) => {
 
 happen('INFO', 'coordinator', 'all agents are ready');
 happen('INFO', 'coordinator', 'the flight begins');
+happen('WARNING', '<i>nobody</i>', '<img src=x onerror="document.title=1"> is text');
 const tick_s = 0.04;
 setInterval(() => {
   for (let i = 0; i < 4; ++i) swarm.step(tick_s / 4);

@@ -72,7 +72,8 @@ export class Camera {
     if (extent === undefined) return;
     const half = (this.eye.fov * Math.PI) / 360;
     const narrow = Math.atan(Math.tan(half) * Math.min(1, this.free));
-    const distance = (extent.radius * 0.9) / Math.sin(narrow);
+    const room = elevation > 1 ? 1.12 : 0.9;  // from above, what is high is near and looks larger
+    const distance = (extent.radius * room) / Math.sin(narrow);
     const target = new three.Vector3(extent.center[0], extent.center[1], extent.center[2] - 0.06 * extent.radius);
     const level = Math.cos(elevation) * distance;
     const eye = new three.Vector3(Math.cos(azimuth) * level, Math.sin(azimuth) * level, Math.sin(elevation) * distance).add(target);

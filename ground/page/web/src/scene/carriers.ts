@@ -5,7 +5,8 @@
 
 import * as three from 'three';
 import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
-import type { Mission } from '../messages';
+import type { FrameCarrier, Mission } from '../messages';
+import type { Playback } from '../playback';
 import { css_color } from '../dom';
 import { carrier_tone, rgb } from '../tones';
 import type { Paper } from '../tones';
@@ -13,7 +14,7 @@ import type { Extent } from './geometry';
 import type { CarrierPose, Pose } from './pose';
 import { Ribbons } from './ribbons';
 
-const kTrailOfPeriod = 0.55;
+const kTrailOfPeriod = 0.6;
 const kTrailMost_s = 14;
 
 /** Coarser where there are many: each is small then, and there are processors that draw. */
@@ -68,7 +69,7 @@ export class Carriers {
     const points = many ? 40 : 96;
     const period_s = mission !== undefined && mission.period_s > 0 ? mission.period_s : 20;
     this.step_s = Math.min(kTrailMost_s, kTrailOfPeriod * period_s) / points;
-    this.trails = new Ribbons(count, points, { width: many ? 3 : 6, opacity: 0.8 });
+    this.trails = new Ribbons(count, points, { width: many ? 3 : 7, opacity: 0.85 });
     this.paths = ids.map(() => new Float32Array(0));
     this.trailed_s = -Infinity;
     const orbits = ids.map((id) => mission?.carriers.find((carrier) => carrier.id === id)?.orbit_w_m ?? []);
@@ -85,7 +86,7 @@ export class Carriers {
       const weight = shows(i) ? 1 : 0.25;
       this.color.set(tone);
       for (const mesh of [this.bodies, this.planes, this.ghosts]) mesh.setColorAt(i, this.color);
-      this.trails?.paint(i, rgb(tone), (share) => weight * share ** 1.6);
+      this.trails?.paint(i, rgb(tone), (share) => weight * share ** 1.7);
       this.orbits?.paint(i, rgb(tone), () => weight);
     });
     for (const mesh of [this.bodies, this.planes, this.ghosts])
@@ -93,7 +94,7 @@ export class Carriers {
   }
 
   /** `least` is the radius below which a vehicle would not be seen any more, at a place in the world. */
-  place(pose: Pose, time_s: number, least: (at: CarrierPose) => number): void {
+  place(pose: Pose, time_s: number, frames: Playback, least: (at: CarrierPose) => number): void {
     pose.carriers.forEach((carrier, i) => {
       const radius = carrier.seen ? Math.max(this.radii[i] ?? 0, least(carrier)) : 0;
       const put = (mesh: three.InstancedMesh, at: readonly number[], size: number): void => {
@@ -105,15 +106,20 @@ export class Carriers {
       put(this.ghosts, carrier.planned, carrier.has_plan ? Math.max(this.radii[i] ?? 0, least(carrier)) : 0);
     });
     for (const mesh of [this.bodies, this.planes, this.ghosts]) mesh.instanceMatrix.needsUpdate = true;
-    this.draw_trails(pose, time_s);
+    this.draw_trails(pose, time_s, frames);
   }
 
-  private draw_trails(pose: Pose, time_s: number): void {
+  /** Through what was heard, not through what was drawn: where pictures are few, a trail is round all the same. */
+  private draw_trails(pose: Pose, time_s: number, frames: Playback): void {
     const trails = this.trails;
     if (trails === undefined) return;
     const back = time_s < this.trailed_s - 1;
-    const longer = back || time_s - this.trailed_s >= this.step_s;
-    if (longer) this.trailed_s = time_s;
+    const passed: Map<number, FrameCarrier>[] = [];
+    for (const frame of frames.during(back ? -Infinity : this.trailed_s, time_s)) {
+      if (!back && frame.server_time_s - this.trailed_s < this.step_s) continue;
+      this.trailed_s = frame.server_time_s;
+      passed.push(new Map(frame.carriers.map((carrier) => [carrier.id, carrier])));
+    }
     pose.carriers.forEach((carrier, i) => {
       if (!carrier.seen) return;
       let path = this.paths[i]!;
@@ -121,7 +127,12 @@ export class Carriers {
         path = this.paths[i] = new Float32Array(trails.points * 3);
         for (let p = 0; p < trails.points; ++p) path.set(carrier.position, p * 3);
       }
-      if (longer) path.copyWithin(0, 3);
+      for (const heard of passed) {
+        const at = heard.get(carrier.id)?.position_w_m;
+        if (at?.length !== 3) continue;
+        path.set(at, path.length - 3);
+        path.copyWithin(0, 3);
+      }
       path.set(carrier.position, path.length - 3);
       trails.lay(i, path);
     });

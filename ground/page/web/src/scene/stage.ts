@@ -3,11 +3,11 @@
 import * as three from 'three';
 import { now_s } from '../connection';
 import { css_color, element, found, say, show } from '../dom';
-import type { Frame } from '../messages';
+import type { Frame, FrameCarrier } from '../messages';
 import type { Swarm } from '../swarm';
 import type { Theme } from '../theme';
 import { carrier_tone, rgb, tension_gradient, written_on } from '../tones';
-import { metres, millimetres } from '../words';
+import { good_displacement, metres, millimetres } from '../words';
 import { Cables } from './cables';
 import { Camera } from './camera';
 import { Carriers } from './carriers';
@@ -21,6 +21,7 @@ import type { Pose } from './pose';
 import { draws_by_processor, Pacer } from './quality';
 import { Ribbons } from './ribbons';
 
+const kAstray_m = 0.02;
 const kClick_px = 5;
 const kWide_px = 760;    // from here on the inset lies on the scene
 const kInset_px = 210;
@@ -145,6 +146,10 @@ export class Stage {
     say(found('tension-min'), `${tidy(min)} N`);
     say(found('tension-max'), `${tidy(max)} N`);
     say(found('tension-what'), limited ? 'tension, within its limits' : 'tension');
+    const { clearance_m = 0, clearance_between = '' } = this.swarm.mission ?? {};
+    const touching = clearance_m > 0 && Number.isFinite(clearance_m);
+    say(found('clearance'), touching ? `a carrier may stray ${metres(clearance_m)} before anything touches` : '');
+    found('clearance').title = clearance_between;
     if (this.extent !== undefined)
       say(found('ground-says'), `grid ${metres(this.ground.cell_m)} · ground drawn ${metres(this.extent.lowest - this.extent.floor)} below all`);
   }
@@ -178,7 +183,7 @@ export class Stage {
     this.load.place(pose);
     this.cables.place(pose, this.theme.paper, (at) => 1.15 * pixel(at), shows);
     const spot = new three.Vector3();
-    this.carriers.place(pose, time_s, (carrier) => 5 * pixel(spot.set(...carrier.position)));
+    this.carriers.place(pose, time_s, this.swarm.playback, (carrier) => 5 * pixel(spot.set(...carrier.position)));
     pose.carriers.forEach((carrier, i) => this.labels.place(i, carrier.seen ? carrier.position : undefined, eye, this.size));
     this.labels.put_below(this.labels.load, pose.has_load ? this.load.corners(pose) : [], eye, this.size);
     this.place_closest(pose);
@@ -207,13 +212,13 @@ export class Stage {
     say(found('fps'), `${this.pacer.frames_per_second.toFixed(0)} pictures/s`);
     if (frame === undefined) return;
     say(this.labels.closest, Number.isFinite(frame.closest_m) ? metres(frame.closest_m) : '');
-    say(this.labels.load, within_m === undefined ? '' : `still, within ${millimetres(within_m)}`);
+    say(this.labels.load, within_m === undefined ? '' : `${within_m <= good_displacement(this.swarm.mission) ? 'still, within' : 'swings within'} ${millimetres(within_m)}`);
     this.tell_tensions(frame);
     const by_id = new Map(frame.carriers.map((carrier) => [carrier.id, carrier]));
     ids.forEach((id, i) => {
       const carrier = by_id.get(id);
       const chosen = this.swarm.selected.includes(id) || (ids.length <= 8 && this.swarm.selected.length === 0);
-      this.labels.tell(i, chosen && carrier !== undefined && carrier.heard ? `${carrier.speed_m_s.toFixed(2)} m/s` : '');
+      this.labels.tell(i, carrier === undefined ? '' : label_words(carrier, chosen));
     });
   }
 
@@ -256,6 +261,13 @@ export class Stage {
 
 function distance(a: Extent, b: Extent): number {
   return Math.hypot(...a.center.map((value, axis) => value - b.center[axis]!)) + Math.abs(a.radius - b.radius);
+}
+
+/** A carrier that strays says so, whether it is selected or not. */
+function label_words(carrier: FrameCarrier, chosen: boolean): string {
+  const speed = chosen && carrier.heard ? `${carrier.speed_m_s.toFixed(2)} m/s` : '';
+  const astray = !carrier.heard ? 'not heard' : carrier.deviation_m > kAstray_m ? `${metres(carrier.deviation_m)} off` : '';
+  return [speed, astray].filter(Boolean).join(' · ');
 }
 
 function tidy(value: number): string {

@@ -72,6 +72,12 @@ if (said.whole) {
     const value = decoded(channel.topic, schema, message.data);
     samples[channel.topic] = plain(value); // the last one stays
   }
+  const groups = [...reader.summaryOffsetsByOpcode.values()];
+  const kinds = groups.map((group) => group.groupOpcode).sort((a, b) => a - b);
+  if (!isDeepStrictEqual(kinds, [0x03, 0x04, 0x08, 0x0b, 0x0d])) complain(`groups of the summary: ${kinds}`);
+  for (const { groupOpcode, groupStart } of groups) {
+    if (file[Number(groupStart)] !== groupOpcode) complain(`no group ${groupOpcode} begins at byte ${groupStart}`);
+  }
   if (!isDeepStrictEqual(counts, said.topics)) complain(`topics by the summary: ${JSON.stringify(counts)}`);
   for (const [topic, fields] of Object.entries(said.samples)) {
     for (const [name, value] of Object.entries(fields)) {

@@ -79,7 +79,7 @@ Sheet paths_sheet(const std::vector<Account>& accounts, const Places& all) {
   return finished(std::move(svg),
                   {"paths",
                    "Where the carriers flew",
-                   "Fine lines: flown. Broad faint lines: the plan's orbits. Dots and dashed cables: where the "
+                   "Fine lines: flown. Broad faint lines: the plan's orbits. Dots and thin cables: where the "
                    "recording begins. All flights in one scale.",
                    {}},
                   accounts, y);

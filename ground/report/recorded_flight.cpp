@@ -87,11 +87,12 @@ Result<Account> read_flight(const std::string& path, const McapSource& source,
   auto opened = McapStream::open(source);
   if (!opened) return Error{path + ": " + opened.error().text};
   McapStream stream = std::move(opened).value();
-  auto mission = told_mission(source);
+  std::optional<mission::Mission> mission = told_mission(source);
   FileFacts file;
   file.path = path;
   file.mission_given = !mission && given;
-  auto digest = std::make_unique<FlightDigest>(mission ? std::move(mission) : given);
+  if (!mission) mission = given;
+  auto digest = std::make_unique<FlightDigest>(std::move(mission));
   Channels channels;
   LocalTime latest{};
   while (const auto message = stream.next()) {

@@ -98,6 +98,9 @@ TEST(Trace, AHundredRoundsTakeTheRoomOfOne) {
   for (int k = 0; k <= 5000; ++k) once.add(on_circle(k * kTwoPi / 5000));
   for (int k = 0; k <= 500'000; ++k) often.add(on_circle(k * kTwoPi / 5000));
   EXPECT_LE(often.steps(), Trace::kMostSteps);
+  std::size_t points = 0;
+  for (const auto& stroke : often.strokes()) points += stroke.size();
+  EXPECT_LE(points, 2 * Trace::kMostSteps) << "a step has two ends";
   EXPECT_EQ(often.cell_m(), once.cell_m());
   EXPECT_LE(often.steps(), once.steps() + once.steps() / 100) << "what rounding moves into the next cell";
 }

@@ -30,8 +30,9 @@ double draw_legend(Svg& svg, const Places& places, double top) {
   std::size_t rows = 0;
   for (const auto& [id, place] : places) {
     const double x = kMargin + kIndent + static_cast<double>(place % in_a_row) * kPitch;
-    const double y = top + 14.0 + static_cast<double>(place / in_a_row) * kLegendRow;
-    rows = std::max(rows, place / in_a_row + 1);
+    const std::size_t row = place / in_a_row;
+    const double y = top + 14.0 + static_cast<double>(row) * kLegendRow;
+    rows = std::max(rows, row + 1);
     svg.begin(carrier_tone(place));
     svg.line({x, y - 4.0}, {x + kSwatch, y - 4.0}, {2.4, 1.0, carrier_dash(place)});
     svg.words({x + kSwatch + 6.0, y}, std::to_string(id), {kLegendFont, Anchor::kStart, true});

@@ -6,6 +6,7 @@
 
 #include "ground/report/core/account.hpp"
 #include "ground/report/core/flown_charts.hpp"
+#include "ground/report/core/flown_paths.hpp"
 #include "ground/report/core/page.hpp"
 #include "ground/report/core/sheets.hpp"
 #include "tests/ground/svg_reader.hpp"
@@ -177,6 +178,15 @@ TEST(ReportFlight, TwoStandBesideEachOtherInOneScale) {
     EXPECT_EQ(charts[0].time_s.min, charts[1].time_s.min);
     EXPECT_EQ(charts[0].time_s.max, charts[1].time_s.max);
   }
+}
+
+TEST(ReportFlight, ThoseThatDifferMuchInSizeHaveScalesOfTheirOwn) {
+  std::vector<Account> accounts = both();
+  EXPECT_TRUE(of_one_size(accounts));
+  EXPECT_THAT(sheets(accounts)[0].caption, HasSubstr("in one scale"));
+  accounts.push_back(account_of(PerfectSwarm(test::shipped_mission("fixed-wing-trio"))));
+  EXPECT_FALSE(of_one_size(accounts));
+  EXPECT_THAT(sheets(accounts)[1].caption, HasSubstr("a scale of its own"));
 }
 
 TEST(ReportFlight, ThePapersComparisonIsInThePicture) {

@@ -40,6 +40,12 @@ void Extents::include(const Eigen::Vector3d& place_w_m, double radius_m) {
   widen(z, place_w_m.z());
 }
 
+void Extents::include(const Extents& other) {
+  x.include(other.x);
+  y.include(other.y);
+  z.include(other.z);
+}
+
 Extents extents(const Motion& motion) {
   Extents out;
   out.include(motion.load_position_w_m);

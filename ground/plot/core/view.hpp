@@ -44,6 +44,7 @@ struct Extents {
   mechanics::Range x, y, z;
 
   void include(const Eigen::Vector3d& place_w_m, double radius_m = 0.0);
+  void include(const Extents& other);
 };
 [[nodiscard]] Extents extents(const Motion& motion);
 

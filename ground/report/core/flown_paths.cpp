@@ -46,25 +46,29 @@ void draw_carrier(Svg& svg, const Trace& trace, const Eigen::Vector3d* attachmen
 
 }  // namespace
 
-Extents flown_extents(const std::vector<Account>& accounts) {
+Extents flown_extents(const Account& account) {
   Extents out;
   const auto take = [&out](const Trace& trace) {
     const auto& extent = trace.extent();
     if (!trace.first_m()) return;
-    out.include({extent[0].min, extent[1].min, extent[2].min});
-    out.include({extent[0].max, extent[1].max, extent[2].max});
+    out.include(Eigen::Vector3d(extent[0].min, extent[1].min, extent[2].min));
+    out.include(Eigen::Vector3d(extent[0].max, extent[1].max, extent[2].max));
   };
-  for (const Account& account : accounts) {
-    if (account.certified) {
-      const Extents planned = extents(account.certified->motion);
-      out.include({planned.x.min, planned.y.min, planned.z.min});
-      out.include({planned.x.max, planned.y.max, planned.z.max});
-    }
-    for (const auto& [id, series] : account.digest->carriers()) take(series.path);
-    take(account.digest->load().path);
-  }
+  if (account.certified) out = extents(account.certified->motion);
+  for (const auto& [id, series] : account.digest->carriers()) take(series.path);
+  take(account.digest->load().path);
   if (out.x.span() < 0.0) out.include(Eigen::Vector3d::Zero());
   return out;
+}
+
+bool of_one_size(const std::vector<Account>& accounts) {
+  constexpr double kMost = 2.5;
+  mechanics::Range sizes_m;
+  for (const Account& account : accounts) {
+    const Extents extents = flown_extents(account);
+    sizes_m.include(std::max({extents.x.span(), extents.y.span(), extents.z.span()}));
+  }
+  return sizes_m.max <= kMost * sizes_m.min;
 }
 
 void draw_paths(Svg& svg, const Account& account, const Places& places, const Frame& frame) {

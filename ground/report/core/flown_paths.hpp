@@ -9,8 +9,11 @@
 
 namespace gyre::ground {
 
-/// What the views of these flights have to show.
-[[nodiscard]] Extents flown_extents(const std::vector<Account>& accounts);
+/// What the views of this flight have to show.
+[[nodiscard]] Extents flown_extents(const Account& account);
+
+/// Whether flights are of one size, near enough for one scale to show all of them.
+[[nodiscard]] bool of_one_size(const std::vector<Account>& accounts);
 
 /// In one of the two views.
 void draw_paths(Svg& svg, const Account& account, const Places& places, const Frame& frame);

@@ -62,15 +62,23 @@ void draw_name(Svg& svg, const Account& account, double left, double width, doub
 Sheet finished(Svg&& svg, const Outline& outline, const std::vector<Account>& accounts, double height) {
   std::string names;
   for (const Account& account : accounts) names += (names.empty() ? "" : ", ") + account.name;
-  return {outline.name, outline.title, outline.caption,
-          std::move(svg).finished(kWidth, height, std::string(outline.title) + ": " + names, outline.caption)};
+  std::string caption = outline.caption;
+  if (accounts.size() > 1) {
+    caption += of_one_size(accounts) ? " All flights in one scale."
+                                     : " The flights differ much in size: each in a scale of its own.";
+  }
+  std::string picture = std::move(svg).finished(kWidth, height, std::string(outline.title) + ": " + names, caption);
+  return {outline.name, outline.title, std::move(caption), std::move(picture)};
 }
 
 Sheet paths_sheet(const std::vector<Account>& accounts, const Places& all) {
   Svg svg;
-  const Extents shown = flown_extents(accounts);
+  Extents every;
+  for (const Account& account : accounts) every.include(flown_extents(account));
+  const bool one_scale = of_one_size(accounts);
   double y = draw_legend(svg, all, 6.0);
   for (const Account& account : accounts) {
+    const Extents shown = one_scale ? every : flown_extents(account);
     draw_name(svg, account, kMargin + kIndent, kInner - kIndent, y + 22.0);
     const Frames views = frames(shown, {kMargin, y + kNameHeight}, kInner);
     draw_paths(svg, account, all, views.above);
@@ -81,7 +89,7 @@ Sheet paths_sheet(const std::vector<Account>& accounts, const Places& all) {
                   {"paths",
                    "Where the carriers flew",
                    "Fine lines: flown. Broad faint lines: the plan's orbits. Dots and thin cables: where the "
-                   "recording begins. All flights in one scale.",
+                   "recording begins.",
                    {}},
                   accounts, y);
 }
@@ -94,7 +102,7 @@ Sheet charts_sheet(const Outline& outline, const std::vector<Account>& accounts,
   for (const Quantity quantity : outline.quantities) {
     charts.emplace_back();
     for (const Account& account : accounts) charts.back().push_back(flown_chart(quantity, account, all, width_px));
-    bring_to_one_scale(charts.back());
+    if (of_one_size(accounts)) bring_to_one_scale(charts.back());
   }
   Svg svg;
   double y = draw_legend(svg, all, 6.0);

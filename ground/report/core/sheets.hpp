@@ -1,6 +1,6 @@
 #pragma once
 // The figures of a report: each a picture that stands alone. Recordings stand beside each other, in the same scales, so
-// that what differs is the flight and not the axis.
+// that what differs is the flight and not the axis; flights that differ much in size have scales of their own.
 //
 //   paths    where the carriers were, from above and from the side, over the orbits of the plan
 //   motion   altitudes and speeds

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "ground/report/core/account.hpp"
 #include "ground/report/core/flown_charts.hpp"
@@ -224,6 +226,22 @@ TEST(ReportFlight, SheetsAndPageAreWellFormedAndStandAlone) {
   EXPECT_THAT(page, HasSubstr("prefers-color-scheme:dark"));
   EXPECT_TRUE(is_report_page(page.substr(0, kPageBeginning)));
   EXPECT_FALSE(is_report_page("<!DOCTYPE html>\n<html><head><title>mine</title></head>"));
+}
+
+/// They are of recorded flights, so their lines are not today's; what stands around these is.
+TEST(ReportFlight, TheCommittedPicturesSayWhatTheCommandSaysToday) {
+  for (const Sheet& sheet : sheets(both())) {
+    if (sheet.name != "motion" && sheet.name != "load") continue;
+    std::ostringstream text;
+    text << std::ifstream(std::string(GYRE_SOURCE_DIR) + "/docs/pictures/report-" + sheet.name + ".svg").rdbuf();
+    const test::SvgFile committed = test::read_svg(text.str()), today = test::read_svg(sheet.svg);
+    const std::string cure = "fly and record paper and paper-fixed, and draw them again with gyre report";
+    ASSERT_EQ(committed.complaint, "") << sheet.name;
+    for (const char* tag : {"title", "desc", "style"})
+      EXPECT_EQ(committed.all(tag).at(0).text, today.all(tag).at(0).text) << cure;
+    for (const char* words : {"paper", "paper-fixed", "\u2713 inside its certificate"})
+      EXPECT_TRUE(committed.says(words)) << words << ": " << cure;
+  }
 }
 
 TEST(ReportFlight, ForeignWordsStayWords) {

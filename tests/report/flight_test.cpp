@@ -228,6 +228,32 @@ TEST(ReportFlight, SheetsAndPageAreWellFormedAndStandAlone) {
   EXPECT_FALSE(is_report_page("<!DOCTYPE html>\n<html><head><title>mine</title></head>"));
 }
 
+TEST(ReportFlight, OfNearlyNothingThereIsAReportToo) {
+  PerfectSwarm swarm(test::shipped_mission("paper"));
+  for (const bool known : {true, false}) {
+    for (const bool carriers : {true, false}) {
+      PerfectSwarm little = swarm;
+      little.tells_mission = known;
+      if (!carriers) little.slices.clear();
+      const std::vector<Heard> all = little.flight();
+      for (const std::size_t count : {std::size_t{1}, std::size_t{2}, std::size_t{4}, std::size_t{9}, all.size()}) {
+        auto digest = std::make_unique<FlightDigest>(known ? std::optional(little.mission) : std::nullopt);
+        for (std::size_t k = 0; k < count; ++k) digest->see(all[k].arrived, all[k].message);
+        std::vector<Account> accounts;
+        accounts.push_back(account(whole_file(), std::move(digest)));
+        EXPECT_TRUE(carriers || accounts[0].standing != Standing::kInside);
+        const std::vector<Sheet> drawn = sheets(accounts);
+        for (const Sheet& sheet : drawn) {
+          EXPECT_EQ(test::read_svg(sheet.svg).complaint, "");
+          for (const char* nonsense : {"nan", "inf,", "inf ", "inf\""})
+            EXPECT_EQ(sheet.svg.find(nonsense), std::string::npos) << sheet.name << " has " << nonsense;
+        }
+        EXPECT_EQ(read_page(report_page(accounts, drawn)).complaint, "");
+      }
+    }
+  }
+}
+
 /// They are of recorded flights, so their lines are not today's; what stands around these is.
 TEST(ReportFlight, TheCommittedPicturesSayWhatTheCommandSaysToday) {
   for (const Sheet& sheet : sheets(both())) {

@@ -62,7 +62,8 @@ class Connection {
   }
   /// Reads until these words are there, or the end; what was read is kept. False: they did not come.
   bool reads(std::string_view words) {
-    while (got_.find(words) == std::string::npos) {
+    for (std::size_t known = 0; got_.find(words, known) == std::string::npos;) {
+      known = got_.size() - std::min(got_.size(), words.size());
       if (!read_some()) return false;
     }
     return true;

@@ -10,6 +10,7 @@
 #include "common/base/text.hpp"
 #include "common/dds/health_reporter.hpp"
 #include "common/dds/inbox.hpp"
+#include "common/program/laboratory.hpp"
 #include "common/program/program.hpp"
 #include "common/program/worker.hpp"
 
@@ -27,8 +28,10 @@ namespace protocol = gyre::protocol;
 /// The wire side: what the agent hears goes into the inbox, what it says goes out through the writers.
 class Wire {
  public:
-  Wire(std::unique_ptr<gyre::dds::Node> opened, gyre::CarrierId carrier)
-      : node_(std::move(opened)), health_(*node_, "agent " + std::to_string(carrier)) {
+  Wire(std::unique_ptr<gyre::dds::Node> opened, gyre::CarrierId carrier, bool laboratory)
+      : node_(std::move(opened)),
+        health_(*node_, "agent " + std::to_string(carrier)),
+        laboratory_(*node_, "agent " + std::to_string(carrier), laboratory) {
     gyre::dds::Node& node = *node_;
     setpoint_ = node.writer<protocol::Setpoint>(carrier);
     status_ = node.writer<protocol::AgentStatus>(carrier);
@@ -57,28 +60,33 @@ class Wire {
 
   void report_health(const Agent& agent) {
     const LocalTime now = gyre::dds::now();
-    health_.step(now, agent.complaint(now), agent.dropped(), inbox_.dropped(), inbox_.late());
+    protocol::DropCounts dropped = agent.dropped();
+    dropped.nonsense += laboratory_.nonsense();
+    health_.step(now, agent.complaint(now), dropped, inbox_.dropped(), inbox_.late());
   }
+
+  void suffer() { laboratory_.perform(); }
 
  private:
   gyre::dds::Inbox<Event> inbox_;  // outlives the node, whose handlers fill it
   std::unique_ptr<gyre::dds::Node> node_;
   gyre::dds::HealthReporter health_;
+  program::Laboratory laboratory_;
   gyre::dds::Writer<protocol::Setpoint> setpoint_;
   gyre::dds::Writer<protocol::AgentStatus> status_;
   gyre::dds::Writer<protocol::TimeRequest> time_request_;
   gyre::dds::Writer<protocol::HeldPlans> held_;
 };
 
-int run(gyre::agent::AgentOptions options, const program::NetworkOptions& network) {
-  auto node = program::open_node(network, {std::nullopt, options.carrier});
+int run(gyre::agent::AgentOptions options, const program::Options& common) {
+  auto node = program::open_node(common.network, {std::nullopt, options.carrier}, common.laboratory);
   if (!node) return node.error();
   options.incarnation = node.value()->incarnation();
   options.address = node.value()->address();
   Agent agent(options);
   gyre::log_info(
       gyre::text("carrier %u: waiting for a coordinator on domain %d", options.carrier, node.value()->domain()));
-  Wire wire(std::move(node).value(), options.carrier);
+  Wire wire(std::move(node).value(), options.carrier, common.laboratory);
 
   program::Worker<PlanQuestion, PlanVerdict> judge(gyre::agent::judge);
   LocalTime next_tick = gyre::dds::now();
@@ -95,6 +103,7 @@ int run(gyre::agent::AgentOptions options, const program::NetworkOptions& networ
     agent.count_undecodable(wire.undecodable());
     step(gyre::agent::Tick{});
     wire.report_health(agent);
+    wire.suffer();
   }
   gyre::log_info(gyre::text("carrier %u: ended on request", options.carrier));
   return program::kGood;
@@ -108,9 +117,9 @@ int main(int argc, char** argv) {
   gyre::agent::VehicleOptions vehicle;
   program::Options common;
   std::vector<program::OptionGroup> groups =
-      program::with_common({{"--carrier", &options.carrier, "this carrier's id in the mission",
-                             program::Bounds{1, gyre::kMaxCarrierId}, program::Take::kRequired}},
-                           common);
+      program::with_common_in_flight({{"--carrier", &options.carrier, "this carrier's id in the mission",
+                                       program::Bounds{1, gyre::kMaxCarrierId}, program::Take::kRequired}},
+                                     common);
   groups.push_back(gyre::agent::vehicle_options(vehicle));
   const auto fly = [&]() -> int {
     if (const auto answer = program::start("gyre-agent " + std::to_string(options.carrier), common)) return *answer;
@@ -120,7 +129,7 @@ int main(int argc, char** argv) {
     }
     options.vehicle = vehicle.limits;
     options.machines = vehicle.machines();
-    return run(options, common.network);
+    return run(options, common);
   };
   return program::run(
       program::Command{"gyre-agent",

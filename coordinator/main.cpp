@@ -11,6 +11,7 @@
 #include "common/dds/inbox.hpp"
 #include "common/mechanics/certificate.hpp"
 #include "common/mission/mission.hpp"
+#include "common/program/laboratory.hpp"
 #include "common/program/mission_argument.hpp"
 #include "common/program/program.hpp"
 #include "coordinator/core/coordinator.hpp"
@@ -51,8 +52,8 @@ constexpr gyre::Duration kEvidencePeriod = std::chrono::milliseconds(18);
 /// The wire side: what the coordinator hears goes into the inbox, what it says goes out through the writers.
 class Wire {
  public:
-  Wire(std::unique_ptr<gyre::dds::Node> opened, const gyre::mechanics::Plan& plan)
-      : node_(std::move(opened)), health_(*node_, "coordinator") {
+  Wire(std::unique_ptr<gyre::dds::Node> opened, const gyre::mechanics::Plan& plan, bool laboratory)
+      : node_(std::move(opened)), health_(*node_, "coordinator"), laboratory_(*node_, "coordinator", laboratory) {
     gyre::dds::Node& node = *node_;
     beacon_ = node.writer<protocol::Beacon>();
     replies_ = node.writer<protocol::CommandReply>();
@@ -103,13 +104,18 @@ class Wire {
 
   void report_health(const Coordinator& coordinator) {
     const LocalTime now = gyre::dds::now();
-    health_.step(now, coordinator.complaint(now), coordinator.dropped(), inbox_.dropped(), inbox_.late());
+    protocol::DropCounts dropped = coordinator.dropped();
+    dropped.nonsense += laboratory_.nonsense();
+    health_.step(now, coordinator.complaint(now), dropped, inbox_.dropped(), inbox_.late());
   }
+
+  void suffer() { laboratory_.perform(); }
 
  private:
   gyre::dds::Inbox<Event> inbox_;  // outlives the node, whose handlers fill it
   std::unique_ptr<gyre::dds::Node> node_;
   gyre::dds::HealthReporter health_;
+  program::Laboratory laboratory_;
   gyre::dds::Writer<protocol::Beacon> beacon_;
   gyre::dds::Writer<protocol::CommandReply> replies_;
   gyre::dds::Writer<protocol::CoordinatorStatus> status_;
@@ -139,6 +145,7 @@ Outcome conduct(Coordinator& coordinator, Wire& wire) {
     if (const auto retune = retunes.finished()) step(*retune);
     step(gyre::coordinator::Tick{});
     wire.report_health(coordinator);
+    wire.suffer();
     const gyre::Interrupts asked = gyre::take_interrupts();
     // A service that is restarted or moved: the agents fly on, to the end of their lease, and whoever starts next
     // learns all from them.
@@ -152,7 +159,7 @@ Outcome conduct(Coordinator& coordinator, Wire& wire) {
   return *finished;
 }
 
-int run(const std::string& path, const program::NetworkOptions& network, bool engage) {
+int run(const std::string& path, const program::Options& options, bool engage) {
   const auto mission = program::read_mission(path);
   if (!mission) return mission.error();
   const gyre::mechanics::Certificate certificate = gyre::mechanics::certify(mission.value().plan);
@@ -161,14 +168,14 @@ int run(const std::string& path, const program::NetworkOptions& network, bool en
   }
   if (!certificate.admissible()) return program::kFailed;
 
-  auto node = program::open_node(network, {gyre::dds::Hub::kCoordinator, std::nullopt});
+  auto node = program::open_node(options.network, {gyre::dds::Hub::kCoordinator, std::nullopt}, options.laboratory);
   if (!node) return node.error();
   gyre::coordinator::CoordinatorOptions coordinator_options;
   coordinator_options.nonce = std::random_device{}();
   coordinator_options.engage_when_ready = engage;
 
   Coordinator coordinator(job_of(mission.value(), certificate), coordinator_options);
-  Wire wire(std::move(node).value(), mission.value().plan);
+  Wire wire(std::move(node).value(), mission.value().plan, options.laboratory);
   const Outcome outcome = conduct(coordinator, wire);
   gyre::log(outcome.clean ? gyre::Notice::Level::kInfo : gyre::Notice::Level::kError, outcome.text);
   return outcome.clean ? program::kGood : program::kFailed;
@@ -183,14 +190,15 @@ int main(int argc, char** argv) {
   program::Options options;
   const auto conduct = [&]() -> int {
     if (const auto answer = program::start("gyre-coordinator", options)) return *answer;
-    return run(mission, options.network, engage);
+    return run(mission, options, engage);
   };
   return program::run(
-      program::Command{"gyre-coordinator",
-                       "Owns the mission: certifies it, keeps swarm time, beacons the phase, agrees transitions.",
-                       program::with_common({program::mission_argument(mission),
-                                             {"--engage", &engage, "start the motion as soon as every agent is ready"}},
-                                            options),
-                       conduct},
+      program::Command{
+          "gyre-coordinator",
+          "Owns the mission: certifies it, keeps swarm time, beacons the phase, agrees transitions.",
+          program::with_common_in_flight({program::mission_argument(mission),
+                                          {"--engage", &engage, "start the motion as soon as every agent is ready"}},
+                                         options),
+          conduct},
       argc, argv);
 }

@@ -9,6 +9,7 @@
 #include "common/base/text.hpp"
 #include "common/dds/health_reporter.hpp"
 #include "common/dds/inbox.hpp"
+#include "common/program/laboratory.hpp"
 #include "common/program/mission_argument.hpp"
 #include "common/program/program.hpp"
 #include "simulator/core/simulator.hpp"
@@ -30,8 +31,8 @@ struct Arrived {
 /// The wire side: what agents say goes into the inbox with the time it arrived, states go out through the writers.
 class Wire {
  public:
-  Wire(std::unique_ptr<gyre::dds::Node> opened, const gyre::mechanics::Plan& plan)
-      : node_(std::move(opened)), health_(*node_, "simulator") {
+  Wire(std::unique_ptr<gyre::dds::Node> opened, const gyre::mechanics::Plan& plan, bool laboratory)
+      : node_(std::move(opened)), health_(*node_, "simulator"), laboratory_(*node_, "simulator", laboratory) {
     gyre::dds::Node& node = *node_;
     load_ = node.writer<protocol::LoadState>();
     for (const gyre::mechanics::Carrier& carrier : plan.carriers) {
@@ -63,13 +64,18 @@ class Wire {
 
   void report_health(const Simulator& simulator) {
     const LocalTime now = gyre::dds::now();
-    health_.step(now, simulator.complaint(now), simulator.dropped(), inbox_.dropped(), inbox_.late());
+    protocol::DropCounts dropped = simulator.dropped();
+    dropped.nonsense += laboratory_.nonsense();
+    health_.step(now, simulator.complaint(now), dropped, inbox_.dropped(), inbox_.late());
   }
+
+  [[nodiscard]] std::vector<program::AskedPush> suffer() { return laboratory_.perform(); }
 
  private:
   gyre::dds::Inbox<Arrived> inbox_;  // outlives the node, whose handlers fill it
   std::unique_ptr<gyre::dds::Node> node_;
   gyre::dds::HealthReporter health_;
+  program::Laboratory laboratory_;
   gyre::dds::Writer<protocol::LoadState> load_;
   std::vector<gyre::dds::Writer<protocol::CarrierState>> carriers_;  // in the plan's order
 };
@@ -95,7 +101,7 @@ void report(const Outputs& out) {
   }
   if (out.dropped) {
     const protocol::DropCounts& counts = out.dropped->counts;
-    gyre::log_warning(gyre::text("setpoints dropped so far: %" PRIu64 " nonsense, %" PRIu64 " late, %" PRIu64
+    gyre::log_warning(gyre::text("dropped so far: %" PRIu64 " nonsense, %" PRIu64 " late, %" PRIu64
                                  " twice; the latest: %s",
                                  counts.nonsense, counts.late, counts.duplicate, out.dropped->latest.c_str()));
   }
@@ -113,18 +119,21 @@ void simulate(Simulator& simulator, Wire& wire) {
     wire.send(out);
     report(out);
     wire.report_health(simulator);
+    for (const program::AskedPush& asked : wire.suffer()) {
+      report(simulator.step(asked.arrived, gyre::simulator::Pushed{asked.push.force_w_n, asked.push.duration}));
+    }
   }
 }
 
-int run(const std::string& path, const program::NetworkOptions& network) {
+int run(const std::string& path, const program::Options& options) {
   const auto mission = program::read_mission(path);
   if (!mission) return mission.error();
-  auto node = program::open_node(network, {gyre::dds::Hub::kSimulator, std::nullopt});
+  auto node = program::open_node(options.network, {gyre::dds::Hub::kSimulator, std::nullopt}, options.laboratory);
   if (!node) return node.error();
   const gyre::mechanics::Plan& plan = mission.value().plan;
   SimulationSettings settings = settings_of(mission.value());
   settings.incarnation = node.value()->incarnation();
-  Wire wire(std::move(node).value(), plan);
+  Wire wire(std::move(node).value(), plan, options.laboratory);
   auto simulator = Simulator::create(plan, settings, gyre::dds::now());
   if (!simulator) {
     gyre::log_error(simulator.error().text);
@@ -146,11 +155,11 @@ int main(int argc, char** argv) {
   program::Options options;
   const auto simulate = [&]() -> int {
     if (const auto answer = program::start("gyre-simulator", options)) return *answer;
-    return run(mission, options.network);
+    return run(mission, options);
   };
   return program::run(
       program::Command{"gyre-simulator",
                        "Simulates the load, its cables, winches and carriers, which follow the agents' setpoints.",
-                       program::with_common({program::mission_argument(mission)}, options), simulate},
+                       program::with_common_in_flight({program::mission_argument(mission)}, options), simulate},
       argc, argv);
 }

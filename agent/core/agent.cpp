@@ -153,6 +153,8 @@ void Agent::on(LocalTime now, const protocol::Beacon& beacon, Outputs& out) {
     }
     doubted_at_.reset();
     if (age > age_max) {
+      // To a process that was stopped, old ones come first; to one whose clock leapt without it, only old ones.
+      if (awake_since_) doubted_at_ = now;
       ++dropped_.late;
       return;
     }
@@ -316,9 +318,10 @@ void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
   believed_ = reply.believed == 0 || reply.believed == options_.incarnation;
   rival_ = reply.rival;
   if (!believed_) give_way();
-  const bool before = clock_.synchronised();
+  const std::optional<SwarmTime> time_before = swarm_time(now);
+  const bool before = time_before.has_value();
   std::optional<Command> flown;
-  if (before && reference(course_, clock_.at(now))) flown = merge_.apply(clock_.at(now), path(course_));
+  if (before && reference(course_, *time_before)) flown = merge_.apply(*time_before, path(course_));
   using Verdict = protocol::Timekeeper::Verdict;
   const Verdict verdict =
       clock_.observe({reply.request_sent, reply.request_received, reply.reply_sent, event.arrived}, now);
@@ -326,10 +329,15 @@ void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
     out.notices.push_back({Notice::Level::kWarning,
                            "a clock jumped, this one or the coordinator's: swarm time was found "
                            "anew"});
-    // The carrier is where the last setpoint led it, or has gone on by itself: where that is, it has to tell.
     if (flown && reference(course_, clock_.at(now))) merge_.begin(clock_.at(now), *flown, path(course_));
-    awake_since_ = now;
-    vehicle_.reset();
+    // The carrier is where the last setpoint led it, and is led on where time is off by no more than one of them: as
+    // after a coordinator has learned it from its agents. Or it has gone on by itself: where that is, it has to tell.
+    const bool led = flown_at_ && now - *flown_at_ <= 5 * options_.control_period;
+    const Duration off = clock_.at(now) - *time_before;
+    if (!led || off > options_.control_period || off < -options_.control_period) {
+      awake_since_ = now;
+      vehicle_.reset();
+    }
   } else if (verdict != Verdict::kTaken) {
     ++dropped_.nonsense;
     return;

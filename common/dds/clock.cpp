@@ -1,5 +1,7 @@
 #include "common/dds/clock.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "common/base/ensure.hpp"
@@ -10,6 +12,16 @@ namespace {
 ClockError& process_clock_error() {
   static ClockError error;
   return error;
+}
+
+// Read by every thread, written by one. Whoever reads the shift first and what was shown after it never sees a shift
+// back without where the clock stands.
+std::atomic<Duration::rep> shift_ns{0};
+std::atomic<Duration::rep> shown_ns{LocalTime::min().time_since_epoch().count()};
+
+LocalTime shown_at(ClockError::Steady s) {
+  const Duration shift(shift_ns.load());
+  return std::max(process_clock_error().shown_at(s) + shift, LocalTime(Duration(shown_ns.load())));
 }
 
 }  // namespace
@@ -41,15 +53,27 @@ ClockError::Steady ClockError::moment_of(LocalTime t) const {
 }
 
 void set_clock_error(Duration offset, double drift_ppm) {
+  shift_ns.store(0);
+  shown_ns.store(LocalTime::min().time_since_epoch().count());
   process_clock_error() = ClockError(offset, drift_ppm, std::chrono::steady_clock::now());
 }
 
+void shift_clock(Duration by) {
+  const Duration sum = Duration(shift_ns.load()) + by;
+  GYRE_ENSURE(std::abs(seconds(sum)) <= kMaxClockOffset_s, "the shifts of a clock are bounded");
+  shown_ns.store(now().time_since_epoch().count());
+  shift_ns.store(sum.count());
+}
+
 LocalTime now() {
-  return process_clock_error().shown_at(std::chrono::steady_clock::now());
+  return shown_at(std::chrono::steady_clock::now());
 }
 
 std::chrono::steady_clock::time_point steady_time(LocalTime deadline) {
-  return process_clock_error().moment_of(deadline);
+  const ClockError::Steady moment = process_clock_error().moment_of(deadline - Duration(shift_ns.load()));
+  // A clock that stands still shows what it would otherwise show later.
+  if (deadline <= LocalTime(Duration(shown_ns.load()))) return std::min(moment, std::chrono::steady_clock::now());
+  return moment;
 }
 
 }  // namespace gyre::dds

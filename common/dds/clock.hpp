@@ -10,6 +10,9 @@
 //   t        what this process takes for the time                               ns
 //
 //   t = s + offset + drift · (s − s0)          s = s0 + (t − offset − s0) / (1 + drift)
+//
+// It can be shifted while everything runs, too: forwards it leaps; back it stands still until it has fallen behind by
+// so much, because a steady clock never runs backwards, and every core relies on that.
 
 #include <chrono>
 
@@ -42,12 +45,17 @@ inline constexpr double kMaxClockOffset_s = 1e6;
 inline constexpr double kMaxClockDrift_ppm = 1e4;
 
 /// A laboratory option: makes the clock of this whole process wrong from now on. For a main, before its node opens:
-/// other threads read the clock without a lock.
+/// other threads read the clock without a lock. Shifts are forgotten.
 void set_clock_error(Duration offset, double drift_ppm);
+
+/// A laboratory's disturbance: shifts the clock of this whole process by so much, on top of everything else. For the
+/// main loop, between two beats: a reader in another thread may see the time before it once more, for as long as the
+/// call takes. All shifts together are bounded like an offset.
+void shift_clock(Duration by);
 
 [[nodiscard]] LocalTime now();
 
-/// When `deadline`, a time on this process's clock, comes on the machine's.
+/// When `deadline`, a time on this process's clock, comes on the machine's; one that has passed, not after now.
 [[nodiscard]] std::chrono::steady_clock::time_point steady_time(LocalTime deadline);
 
 }  // namespace gyre::dds

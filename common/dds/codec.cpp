@@ -393,4 +393,24 @@ std::optional<protocol::Health> decode(const idl::Health& wire) {
                           Duration(wire.late_max_ns())};
 }
 
+std::optional<idl::Disturbance> encode(const protocol::Disturbance& message) {
+  idl::Disturbance wire;
+  wire.process(fitting_text(message.process, protocol::kMaxTextBytes));
+  wire.kind(static_cast<std::uint8_t>(message.kind));
+  wire.share(message.share);
+  wire.shift_ns(message.shift.count());
+  wire.force_w_n(numbers(message.force_w_n));
+  wire.duration_ns(message.duration.count());
+  return wire;
+}
+
+std::optional<protocol::Disturbance> decode(const idl::Disturbance& wire) {
+  using Kind = protocol::DisturbanceKind;
+  const auto kind = enumerator(wire.kind(), Kind::kLosePackets, Kind::kPushLoad);
+  if (!kind) return std::nullopt;
+  return protocol::Disturbance{
+      wire.process().to_string(),  *kind, wire.share(), Duration(wire.shift_ns()), vector(wire.force_w_n()),
+      Duration(wire.duration_ns())};
+}
+
 }  // namespace gyre::dds

@@ -35,6 +35,7 @@ template <> struct Wire<protocol::CommandReply> { using Type = fast::idl::Comman
 template <> struct Wire<protocol::CoordinatorStatus> { using Type = fast::idl::CoordinatorStatus; using Support = fast::idl::CoordinatorStatusPubSubType; };
 template <> struct Wire<protocol::MissionText>  { using Type = fast::idl::MissionText;     using Support = fast::idl::MissionTextPubSubType; };
 template <> struct Wire<protocol::Health>       { using Type = fast::idl::Health;          using Support = fast::idl::HealthPubSubType; };
+template <> struct Wire<protocol::Disturbance>  { using Type = fast::idl::Disturbance;     using Support = fast::idl::DisturbancePubSubType; };
 // clang-format on
 
 [[nodiscard]] std::optional<fast::idl::Beacon> encode(const protocol::Beacon& message);
@@ -51,6 +52,7 @@ template <> struct Wire<protocol::Health>       { using Type = fast::idl::Health
 [[nodiscard]] std::optional<fast::idl::CoordinatorStatus> encode(const protocol::CoordinatorStatus& message);
 [[nodiscard]] std::optional<fast::idl::MissionText> encode(const protocol::MissionText& message);
 [[nodiscard]] std::optional<fast::idl::Health> encode(const protocol::Health& message);
+[[nodiscard]] std::optional<fast::idl::Disturbance> encode(const protocol::Disturbance& message);
 
 [[nodiscard]] std::optional<protocol::Beacon> decode(const fast::idl::Beacon& wire);
 [[nodiscard]] std::optional<protocol::PlanOffer> decode(const fast::idl::PlanOffer& wire);
@@ -66,6 +68,7 @@ template <> struct Wire<protocol::Health>       { using Type = fast::idl::Health
 [[nodiscard]] std::optional<protocol::CoordinatorStatus> decode(const fast::idl::CoordinatorStatus& wire);
 [[nodiscard]] std::optional<protocol::MissionText> decode(const fast::idl::MissionText& wire);
 [[nodiscard]] std::optional<protocol::Health> decode(const fast::idl::Health& wire);
+[[nodiscard]] std::optional<protocol::Disturbance> decode(const fast::idl::Disturbance& wire);
 
 /// The longest beginning of a UTF-8 text that fits into `bytes`, holds no NUL and cuts no character in two.
 [[nodiscard]] std::string fitting_text(const std::string& text, std::size_t bytes);

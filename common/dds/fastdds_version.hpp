@@ -9,6 +9,9 @@
 #define GYRE_FASTDDS_3
 #include <fastdds/rtps/attributes/RTPSParticipantAttributes.hpp>
 #include <fastdds/rtps/common/SerializedPayload.hpp>
+#include <fastdds/rtps/transport/ChainingTransport.hpp>
+#include <fastdds/rtps/transport/SenderResource.hpp>
+#include <fastdds/rtps/transport/TransportReceiverInterface.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>
 #include <fastdds/utils/IPLocator.hpp>
 #include <gyre_idl/gyre_msgs.hpp>
@@ -16,6 +19,9 @@
 #else
 #include <fastdds/rtps/attributes/RTPSParticipantAttributes.h>
 #include <fastdds/rtps/common/SerializedPayload.h>
+#include <fastdds/rtps/network/SenderResource.h>
+#include <fastdds/rtps/transport/ChainingTransport.h>
+#include <fastdds/rtps/transport/TransportReceiverInterface.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <gyre_idl/gyre_msgs.h>
@@ -34,6 +40,8 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace gyre::dds::fast {
 
@@ -48,6 +56,8 @@ namespace rtps = eprosima::fastdds::rtps;
 
 using Payload = rtps::SerializedPayload_t&;
 using Time = api::Duration_t;
+/// What a transport is given to send: the buffers that make up one datagram.
+using Datagram = const std::vector<rtps::NetworkBuffer>&;
 
 inline constexpr api::ReturnCode_t kOk = api::RETCODE_OK;
 inline constexpr api::DataRepresentationId_t kXcdr1 = api::DataRepresentationId_t::XCDR_DATA_REPRESENTATION;
@@ -57,6 +67,9 @@ inline constexpr api::DataRepresentationId_t kXcdr1 = api::DataRepresentationId_
 }
 [[nodiscard]] inline std::uint32_t payload_length(Payload payload) {
   return payload.length;
+}
+[[nodiscard]] inline const std::uint8_t* payload_bytes(Payload payload) {
+  return payload.data;
 }
 
 /// Bytes of the sample on the wire, encapsulation header included, without the padding that may follow.
@@ -78,6 +91,15 @@ template <class Support>
   return qos.reliable_writer_qos().times.heartbeat_period;
 }
 
+/// What a transport sends through, in the hands of whoever wants to see what is sent.
+class Sender final : public rtps::SenderResource {
+ public:
+  template <class Send>
+  explicit Sender(Send send) : SenderResource(LOCATOR_KIND_UDPv4) {
+    send_buffers_lambda_ = std::move(send);
+  }
+};
+
 // ---- 2.9: two namespaces, payloads by pointer, and a write() that answers true where 3.1 answers 0
 #else
 
@@ -85,6 +107,8 @@ namespace rtps = eprosima::fastrtps::rtps;
 
 using Payload = rtps::SerializedPayload_t*;
 using Time = eprosima::fastrtps::Duration_t;
+/// What a transport is given to send: the bytes of one datagram.
+using Datagram = const rtps::octet*;
 
 inline constexpr auto kOk = eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
 
@@ -93,6 +117,9 @@ inline constexpr auto kOk = eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
 }
 [[nodiscard]] inline std::uint32_t payload_length(Payload payload) {
   return payload->length;
+}
+[[nodiscard]] inline const std::uint8_t* payload_bytes(Payload payload) {
+  return payload->data;
 }
 
 /// Bytes of the sample on the wire, encapsulation header included, without the padding that may follow.
@@ -115,10 +142,26 @@ template <class Support>
   return qos.reliable_writer_qos().times.heartbeatPeriod;
 }
 
+/// What a transport sends through, in the hands of whoever wants to see what is sent.
+class Sender final : public rtps::SenderResource {
+ public:
+  template <class Send>
+  explicit Sender(Send send) : SenderResource(LOCATOR_KIND_UDPv4) {
+    send_lambda_ = std::move(send);
+  }
+};
+
 #endif
 // ---- the same on both
 
 using LocatorList = rtps::LocatorList_t;
+using Locators = eprosima::fastdds::rtps::Locators;
+using LocatorsIterator = eprosima::fastdds::rtps::LocatorsIterator;
+using Transport = eprosima::fastdds::rtps::TransportInterface;
+using TransportDescriptor = eprosima::fastdds::rtps::TransportDescriptorInterface;
+using TransportReceiver = eprosima::fastdds::rtps::TransportReceiverInterface;
+using ChainingTransport = eprosima::fastdds::rtps::ChainingTransport;
+using ChainingDescriptor = eprosima::fastdds::rtps::ChainingTransportDescriptor;
 
 [[nodiscard]] inline bool take(api::DataReader& reader, void* sample, api::SampleInfo& info) {
   return reader.take_next_sample(sample, &info) == kOk;

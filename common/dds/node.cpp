@@ -1,12 +1,16 @@
 #include "common/dds/node.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "common/dds/clock.hpp"
 #include "common/dds/codec.hpp"
 #include "common/dds/participant.hpp"
+#include "common/dds/raw_type.hpp"
 #include "common/dds/seat_lock.hpp"
 #include "common/dds/strict_type.hpp"
 #include "common/dds/topics.hpp"
@@ -47,6 +51,38 @@ class Listener final : public fast::api::DataReaderListener {
   typename Wire<Message>::Type sample_;  // one reader, one receive thread
 };
 
+/// Leaves each sample's bytes, and what RTPS says of them, with the handler.
+class RecordingListener final : public fast::api::DataReaderListener {
+ public:
+  RecordingListener(std::function<void(RecordedSample)> handler, RecordedTopic topic)
+      : handler_(std::move(handler)), topic_(std::make_shared<const RecordedTopic>(std::move(topic))) {}
+
+  void on_data_available(fast::api::DataReader* reader) override {
+    const LocalTime arrived = now();
+    fast::api::SampleInfo info;
+    RawSample raw;
+    while (fast::take(*reader, &raw, info)) {
+      if (!info.valid_data) continue;
+      const auto& identity = info.sample_identity;
+      RecordedSample sample;
+      sample.topic = topic_;
+      const auto& prefix = identity.writer_guid().guidPrefix.value;
+      const auto& entity = identity.writer_guid().entityId.value;
+      std::copy(std::begin(entity), std::end(entity),
+                std::copy(std::begin(prefix), std::end(prefix), sample.writer.begin()));
+      sample.sequence = identity.sequence_number().to64long();
+      sample.source_ns = info.source_timestamp.to_ns();
+      sample.arrived = arrived;
+      sample.payload = std::move(raw.bytes);
+      handler_(std::move(sample));
+    }
+  }
+
+ private:
+  const std::function<void(RecordedSample)> handler_;
+  const std::shared_ptr<const RecordedTopic> topic_;
+};
+
 void set_reliability(fast::api::ReliabilityQosPolicy& reliability, Delivery delivery) {
   reliability.kind = reliable(delivery) ? fast::api::RELIABLE_RELIABILITY_QOS : fast::api::BEST_EFFORT_RELIABILITY_QOS;
   reliability.max_blocking_time = fast::Time(0, 5'000'000);
@@ -76,8 +112,10 @@ struct Node::Impl {
       : participant(std::move(opened)), incarnation(static_cast<std::uint64_t>(now().time_since_epoch().count())) {}
   ~Impl();
 
-  template <class Message>
+  template <class Message, class Type = StrictType<typename Wire<Message>::Support>>
   fast::api::Topic* topic(std::optional<CarrierId> carrier);
+  template <class Message>
+  void record(const std::function<void(RecordedSample)>& handler, std::optional<CarrierId> carrier);
 
   Participant participant;
   const std::uint64_t incarnation;
@@ -95,13 +133,13 @@ Node::Impl::~Impl() {
   participant.close();  // before the listeners go: a callback may still be running in one
 }
 
-template <class Message>
+template <class Message, class Type>
 fast::api::Topic* Node::Impl::topic(std::optional<CarrierId> carrier) {
   const Topic& description = kTopic<Message>;
   fast::api::Topic*& known = topics[topic_name(description, carrier)];
   if (known) return known;
   if (participant->find_type(description.type).empty()) {
-    const fast::api::TypeSupport type(new StrictType<typename Wire<Message>::Support>(undecodable));
+    const fast::api::TypeSupport type(new Type(undecodable));
     type.register_type(participant.get(), description.type);
   }
   known = participant->create_topic(topic_name(description, carrier), description.type, fast::api::TOPIC_QOS_DEFAULT);
@@ -132,6 +170,10 @@ const std::string& Node::address() const {
 
 void Node::answer_callers(const SeatAnswer& answer) {
   impl_->participant.seat().answer(answer);
+}
+
+void Node::lose_packets(double share) {
+  impl_->participant.packet_loss().set_share(share);
 }
 
 Node::Counters Node::counters() const {
@@ -170,6 +212,27 @@ void Node::read(std::function<void(Message, LocalTime)> handler, std::optional<C
 }
 
 template <class Message>
+void Node::Impl::record(const std::function<void(RecordedSample)>& handler, std::optional<CarrierId> carrier) {
+  const Topic& description = kTopic<Message>;
+  if (description.per_carrier != carrier.has_value()) return;
+  fast::api::DataReaderQos qos = participant.subscriber().get_default_datareader_qos();
+  set_common(qos, description.delivery, kRecordingDepth);
+  auto listener = std::make_unique<RecordingListener>(
+      handler, RecordedTopic{topic_name(description, carrier), description.type, description.delivery});
+  fast::api::DataReader* reader =
+      participant.subscriber().create_datareader(topic<Message, RawType<typename Wire<Message>::Support>>(carrier), qos,
+                                                 listener.get(), fast::api::StatusMask::data_available());
+  GYRE_ENSURE(reader, "Fast DDS gives a reader for our own quality of service");
+  readers.push_back(reader);
+  listeners.push_back(std::move(listener));
+}
+
+void Node::record(const std::function<void(RecordedSample)>& handler, std::optional<CarrierId> carrier) {
+  const auto record_each = [&](auto... messages) { (impl_->record<decltype(messages)>(handler, carrier), ...); };
+  std::apply(record_each, EveryMessage{});
+}
+
+template <class Message>
 void Writer<Message>::write(const Message& message) const {
   if (!state_ || !state_->writer) return;
   auto sample = encode(message);
@@ -204,6 +267,7 @@ GYRE_CARRY(protocol::CommandReply)
 GYRE_CARRY(protocol::CoordinatorStatus)
 GYRE_CARRY(protocol::MissionText)
 GYRE_CARRY(protocol::Health)
+GYRE_CARRY(protocol::Disturbance)
 #undef GYRE_CARRY
 
 }  // namespace gyre::dds

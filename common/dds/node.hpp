@@ -19,6 +19,7 @@
 #include "common/base/ids.hpp"
 #include "common/base/result.hpp"
 #include "common/base/time.hpp"
+#include "common/dds/recorded_sample.hpp"
 #include "common/dds/seat_lock.hpp"
 
 namespace gyre::dds {
@@ -38,6 +39,7 @@ struct NodeOptions {
   int domain = 0;                       ///< 0..100
   std::string interface = "127.0.0.1";  ///< the one to use, by its IPv4 address or its name
   std::vector<std::string> peers;       ///< further hosts (IPv4) where hubs may sit; the own interface is always one
+  bool laboratory = false;              ///< packets may be lost on purpose
 };
 
 /// The highest domain whose ports stay below the range the system hands out (32768 upwards).
@@ -83,6 +85,10 @@ class Node {
   template <class Message>
   void read(std::function<void(Message, LocalTime)> handler, std::optional<CarrierId> carrier = std::nullopt);
 
+  /// Every topic of the swarm, or with a carrier every topic of that one, as bytes: `handler` runs in a Fast DDS thread
+  /// for each sample that arrives, whatever is in it. A node that records reads nothing of the same topics.
+  void record(const std::function<void(RecordedSample)>& handler, std::optional<CarrierId> carrier = std::nullopt);
+
   [[nodiscard]] int domain() const;
   /// Tells one life of a process from the next, and from another's: the moment at which this node was opened. Not 0.
   [[nodiscard]] std::uint64_t incarnation() const;
@@ -91,6 +97,9 @@ class Node {
 
   /// Answers everybody who asks at this node's seat (seat_lock.hpp); call it as often as the main loop turns.
   void answer_callers(const SeatAnswer& answer);
+
+  /// From now on so many of the packets, in and out alike, are lost; 0: none. For nodes of a laboratory only.
+  void lose_packets(double share);
 
   struct Counters {
     std::uint64_t unsendable = 0;   ///< write refused by Fast DDS or message too large

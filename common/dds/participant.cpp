@@ -10,6 +10,7 @@
 
 #include "common/dds/clock.hpp"
 #include "common/dds/interface.hpp"
+#include "common/dds/transport_stack.hpp"
 
 namespace gyre::dds {
 namespace {
@@ -82,20 +83,12 @@ void look_at(fast::LocatorList& peers, const std::string& host, int domain) {
 }
 
 // What a user's XML profile sets, stays; what it leaves open becomes the star.
-fast::api::DomainParticipantQos star(const NodeOptions& options, int participant) {
+fast::api::DomainParticipantQos star(const NodeOptions& options, int participant,
+                                     const std::shared_ptr<PacketLoss>& loss) {
   fast::api::DomainParticipantQos qos = fast::profiled_participant_qos();
   const bool visitor = participant >= kFirstVisitor;
-  if (qos.transport().user_transports.empty()) {
-    constexpr std::uint32_t kBufferBytes = 1U << 20U;
-    auto udp = std::make_shared<fast::UdpTransport>();
-    udp->interfaceWhiteList.push_back(options.interface);
-    // How many participant ids are tried at every peer: the hubs; a visitor has to find the agents as well.
-    udp->maxInitialPeersRange = static_cast<std::uint32_t>(visitor ? kFirstVisitor : kHubs);
-    udp->sendBufferSize = kBufferBytes;
-    udp->receiveBufferSize = kBufferBytes;
-    qos.transport().use_builtin_transports = false;
-    qos.transport().user_transports.push_back(udp);
-  }
+  // How many participant ids are tried at every peer: the hubs; a visitor has to find the agents as well.
+  stack_transports(qos.transport(), {options.interface, visitor ? kFirstVisitor : kHubs, loss});
   auto& builtin = qos.wire_protocol().builtin;
   // With a unicast locator of our own no multicast socket is opened.
   if (builtin.metatrafficUnicastLocatorList.empty()) {
@@ -159,9 +152,11 @@ std::vector<SeatCall> ask_all_seats(int domain, Duration patience) {
   return calls;
 }
 
-Participant::Participant(SeatLock seat, std::string address, fast::api::DomainParticipant* participant)
+Participant::Participant(SeatLock seat, std::string address, std::shared_ptr<PacketLoss> loss,
+                         fast::api::DomainParticipant* participant)
     : seat_(std::move(seat)),
       address_(std::move(address)),
+      loss_(std::move(loss)),
       participant_(participant),
       publisher_(participant->create_publisher(fast::api::PUBLISHER_QOS_DEFAULT)),
       subscriber_(participant->create_subscriber(fast::api::SUBSCRIBER_QOS_DEFAULT)) {}
@@ -169,6 +164,7 @@ Participant::Participant(SeatLock seat, std::string address, fast::api::DomainPa
 Participant::Participant(Participant&& other) noexcept
     : seat_(std::move(other.seat_)),
       address_(std::move(other.address_)),
+      loss_(std::move(other.loss_)),
       participant_(std::exchange(other.participant_, nullptr)),
       publisher_(other.publisher_),
       subscriber_(other.subscriber_) {}
@@ -190,15 +186,17 @@ Result<Participant> Participant::open(const NodeOptions& asked) {
   const Result<int> port = check_ports_free(options.interface, options.domain, taken.participant);
   if (!port) return port.error();
 
+  std::shared_ptr<PacketLoss> loss;
+  if (options.laboratory) loss = std::make_shared<PacketLoss>(static_cast<std::uint64_t>(taken.participant));
   // Without the empty mask a participant listener would swallow the readers' callbacks.
   auto* participant = fast::api::DomainParticipantFactory::get_instance()->create_participant(
-      static_cast<std::uint32_t>(options.domain), star(options, taken.participant), nullptr,
+      static_cast<std::uint32_t>(options.domain), star(options, taken.participant, loss), nullptr,
       fast::api::StatusMask::none());
   if (!participant) {
     return Error{"Fast DDS gives no participant at " + options.interface + ", domain " +
                  std::to_string(options.domain) + "; if XML profiles are in use, look there first"};
   }
-  return Participant(std::move(taken.lock), address_of_this_process(options.interface), participant);
+  return Participant(std::move(taken.lock), address_of_this_process(options.interface), std::move(loss), participant);
 }
 
 void Participant::close() {

@@ -1,9 +1,13 @@
 #pragma once
 // The star's recipe: one Fast DDS participant at its seat, on one interface, without multicast and shared memory.
 
+#include <memory>
+
+#include "common/base/ensure.hpp"
 #include "common/base/result.hpp"
 #include "common/dds/fastdds_version.hpp"
 #include "common/dds/node.hpp"
+#include "common/dds/packet_loss.hpp"
 #include "common/dds/seat_lock.hpp"
 
 namespace gyre::dds {
@@ -27,15 +31,22 @@ class Participant {
   [[nodiscard]] const SeatLock& seat() const { return seat_; }
   /// Of this process, for people.
   [[nodiscard]] const std::string& address() const { return address_; }
+  /// Of a laboratory's participant.
+  [[nodiscard]] PacketLoss& packet_loss() const {
+    GYRE_ENSURE(loss_, "packets are lost on purpose in a laboratory only");
+    return *loss_;
+  }
 
   /// Deletes every entity; waits for callbacks that are running. Listeners have to live until then.
   void close();
 
  private:
-  Participant(SeatLock seat, std::string address, fast::api::DomainParticipant* participant);
+  Participant(SeatLock seat, std::string address, std::shared_ptr<PacketLoss> loss,
+              fast::api::DomainParticipant* participant);
 
   SeatLock seat_;
   std::string address_;
+  std::shared_ptr<PacketLoss> loss_;  // shared with the transport; absent outside a laboratory
   fast::api::DomainParticipant* participant_;
   fast::api::Publisher* publisher_;
   fast::api::Subscriber* subscriber_;

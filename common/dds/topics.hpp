@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "common/base/ensure.hpp"
 #include "common/base/ids.hpp"
@@ -46,7 +47,15 @@ template <> inline constexpr Topic kTopic<protocol::CommandReply> {"command_repl
 template <> inline constexpr Topic kTopic<protocol::CoordinatorStatus> {"coordinator/status", "gyre_msgs::msg::dds_::CoordinatorStatus_", false, Delivery::kRetained};
 template <> inline constexpr Topic kTopic<protocol::MissionText>  {"mission",       "gyre_msgs::msg::dds_::MissionText_",     false, Delivery::kRetained};
 template <> inline constexpr Topic kTopic<protocol::Health>       {"health",        "gyre_msgs::msg::dds_::Health_",          false, Delivery::kFromMany};
+template <> inline constexpr Topic kTopic<protocol::Disturbance>  {"laboratory",    "gyre_msgs::msg::dds_::Disturbance_",     false, Delivery::kEach};
 // clang-format on
+
+/// All that have a topic: what is in here is recorded, too.
+using EveryMessage =
+    std::tuple<protocol::Beacon, protocol::PlanOffer, protocol::HeldPlans, protocol::TimeRequest, protocol::TimeReply,
+               protocol::AgentStatus, protocol::Setpoint, protocol::CarrierState, protocol::LoadState,
+               protocol::Command, protocol::CommandReply, protocol::CoordinatorStatus, protocol::MissionText,
+               protocol::Health, protocol::Disturbance>;
 
 [[nodiscard]] constexpr bool reliable(Delivery delivery) {
   return delivery != Delivery::kNewest && delivery != Delivery::kFromMany;

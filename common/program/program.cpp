@@ -34,6 +34,15 @@ std::vector<OptionGroup> with_common(std::vector<Option> own_options, Options& o
   return {own(std::move(own_options)), network_options(options.network), laboratory_options(options.clock)};
 }
 
+std::vector<OptionGroup> with_common_in_flight(std::vector<Option> own_options, Options& options) {
+  std::vector<OptionGroup> groups = with_common(std::move(own_options), options);
+  groups.back().options.push_back(
+      {"--laboratory", &options.laboratory,
+       "let anybody on the domain disturb this process: lose its packets, shift its clock (forwards it leaps, back it "
+       "stands still), push the simulator's load; never in a real flight"});
+  return groups;
+}
+
 Notices apply(const ClockOptions& options) {
   if (options.offset_s == 0.0 && options.drift_ppm == 0.0) return {};
   dds::set_clock_error(from_seconds(options.offset_s), options.drift_ppm);
@@ -61,13 +70,16 @@ Result<dds::NodeOptions> node_options(const NetworkOptions& options, const dds::
   return dds::NodeOptions{seat, domain.value(), options.interface, options.peers};
 }
 
-Result<std::unique_ptr<dds::Node>, ExitCode> open_node(const NetworkOptions& network, const dds::Seat& seat) {
-  const auto options = node_options(network, seat);
-  if (!options) {
-    log_error(options.error().text);
+Result<std::unique_ptr<dds::Node>, ExitCode> open_node(const NetworkOptions& network, const dds::Seat& seat,
+                                                       bool laboratory) {
+  const auto chosen = node_options(network, seat);
+  if (!chosen) {
+    log_error(chosen.error().text);
     return kBadUsage;
   }
-  auto node = dds::Node::open(options.value());
+  dds::NodeOptions options = chosen.value();
+  options.laboratory = laboratory;
+  auto node = dds::Node::open(options);
   if (!node) {
     log_error(node.error().text);
     return kFailed;

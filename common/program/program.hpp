@@ -30,6 +30,7 @@ struct Options {
   std::string log_level = "info";
   NetworkOptions network;
   ClockOptions clock;
+  bool laboratory = false;  ///< whether it listens to disturbances (laboratory.hpp)
 };
 
 /// --domain. `otherwise` is what it is when neither it nor ROS_DOMAIN_ID is given.
@@ -40,6 +41,8 @@ struct Options {
 [[nodiscard]] OptionGroup laboratory_options(ClockOptions& options);
 /// `own_options` first, then --log-level, the network's and the laboratory's.
 [[nodiscard]] std::vector<OptionGroup> with_common(std::vector<Option> own_options, Options& options);
+/// The same of a process that flies, which can be disturbed: and --laboratory.
+[[nodiscard]] std::vector<OptionGroup> with_common_in_flight(std::vector<Option> own_options, Options& options);
 
 /// Makes the process's clock wrong as told, and says so; silent when there is nothing to do. Call before a node opens
 /// and before anything reads the clock.
@@ -55,6 +58,6 @@ struct Options {
 /// The program's place in the swarm. When there is none the log says why, and the error is what to exit with: kFailed
 /// when it may work later (the seat is taken, the interface has no address yet), kBadUsage when it will not.
 [[nodiscard]] Result<std::unique_ptr<dds::Node>, ExitCode> open_node(const NetworkOptions& network,
-                                                                     const dds::Seat& seat);
+                                                                     const dds::Seat& seat, bool laboratory = false);
 
 }  // namespace gyre::program

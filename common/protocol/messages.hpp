@@ -43,9 +43,8 @@ struct PlanOffer {
   std::vector<NumberedSlice> neighbour;  ///< of the carrier after it, which this agent only keeps; at most kMaxPlans
 };
 
-/// Topic carrier_N/held, agent N to coordinator: the plans it holds, so that a restarted coordinator can learn them and
-/// give them back to a restarted agent. At most kMaxPlans. It keeps those of a neighbour as well: one agent may die
-/// together with the coordinator, and nothing is forgotten.
+/// Topic carrier_N/held, agent N to coordinator: the plans it holds, at most kMaxPlans, so that a restarted coordinator
+/// can learn them. It keeps a neighbour's as well: one agent may die with the coordinator, and nothing is forgotten.
 struct HeldPlans {
   CarrierId carrier = 0;
   std::uint64_t incarnation = 0;
@@ -53,9 +52,8 @@ struct HeldPlans {
   std::vector<NumberedSlice> neighbour;  ///< as it was offered
 };
 
-/// Topics carrier_N/time_request and time_reply: the four timestamps of a two-way exchange. The reply is the one word
-/// that each of two agents of one carrier gets for itself, so it says which of them is believed as well: before a
-/// newcomer knows swarm time it knows whether it may fly.
+/// Topics carrier_N/time_request and time_reply: the four timestamps of a two-way exchange. Each of two agents of one
+/// carrier gets its own reply, so it says which is believed: a newcomer knows whether it may fly before it knows time.
 struct TimeRequest {
   CarrierId carrier = 0;
   std::uint64_t incarnation = 0;
@@ -186,8 +184,7 @@ struct CoordinatorStatus {
   std::string news;                 ///< the latest of what it has to tell; at most kMaxTextBytes
 };
 
-/// Topic mission, coordinator to ground: the mission in force as a file's text, so that whoever joins a flight knows
-/// its load, its shape and its limits without the file.
+/// Topic mission, coordinator to ground: the mission in force, so that who joins knows its load and limits.
 struct MissionText {
   std::uint64_t term = 0;
   PlanNumber plan;   ///< as CoordinatorStatus names it
@@ -203,6 +200,18 @@ struct Health {
   std::uint64_t unsendable = 0;   ///< messages the wire refused
   std::uint64_t overrun = 0;      ///< messages the main loop came too late for
   Duration late_max{};            ///< how late its main loop woke from a sleep, the worst since the last report
+};
+
+enum class DisturbanceKind : std::uint8_t { kLosePackets = 1, kShiftClock = 2, kPushLoad = 3 };
+
+/// Topic laboratory, ground to processes that were started with --laboratory; nobody else listens (disturbance.hpp).
+struct Disturbance {
+  std::string process;  ///< "agent 3"; at most kMaxTextBytes
+  DisturbanceKind kind = DisturbanceKind::kLosePackets;
+  double share = 0.0;                                   ///< kLosePackets: of the packets, in and out alike; 0: none
+  Duration shift{};                                     ///< kShiftClock: added to the process's clock
+  Eigen::Vector3d force_w_n = Eigen::Vector3d::Zero();  ///< kPushLoad: at the centre of mass
+  Duration duration{};                                  ///< kPushLoad; kLosePackets: 0: until told otherwise
 };
 
 inline constexpr std::size_t kMaxTextBytes = 255;

@@ -148,4 +148,10 @@ bool sane(const LoadState& s) {
          std::abs(norm - 1.0) <= 1e-3;
 }
 
+bool sane(const Disturbance& d) {
+  return d.process.size() <= kMaxTextBytes && d.kind >= DisturbanceKind::kLosePackets &&
+         d.kind <= DisturbanceKind::kPushLoad && d.share >= 0.0 && d.share <= 1.0 && sane(d.shift) &&
+         sane(d.force_w_n) && sane(d.duration) && d.duration >= Duration::zero();
+}
+
 }  // namespace gyre::protocol

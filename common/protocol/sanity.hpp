@@ -15,5 +15,6 @@ namespace gyre::protocol {
 [[nodiscard]] bool sane(const AgentStatus& status);
 [[nodiscard]] bool sane(const CarrierState& state);
 [[nodiscard]] bool sane(const LoadState& state);
+[[nodiscard]] bool sane(const Disturbance& disturbance);
 
 }  // namespace gyre::protocol

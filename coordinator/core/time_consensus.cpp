@@ -18,8 +18,8 @@ void TimeConsensus::take(SwarmTime time, const protocol::AgentStatus& status) {
     return;
   }
   const Duration ahead = status.swarm_time - time;
-  const bool same = word.in_a_row > 0 && magnitude(ahead - word.ahead) <= kSame && status.swarm_time > word.told;
-  word = {ahead, status.clock_uncertainty, status.swarm_time, same ? word.in_a_row + 1 : 1};
+  const bool same = word.in_a_row > 0 && magnitude(ahead - word.first) <= kSame && status.swarm_time > word.told;
+  word = {ahead, same ? word.first : ahead, status.clock_uncertainty, status.swarm_time, same ? word.in_a_row + 1 : 1};
 }
 
 bool TimeConsensus::Word::another() const {

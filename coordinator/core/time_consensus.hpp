@@ -7,7 +7,9 @@
 // again and again, it is they who are right.
 //
 // A status may have been long on its way, and those that waited while this process did are old: only three in a row
-// that tell the same difference, though they were sent at different times, count.
+// that tell the same difference, though they were sent at different times, count. The same as the first of the row,
+// not as the one before: a change makes agents speak every 25 ms, and what waited differs by no more from one to the
+// next.
 
 #include <map>
 #include <optional>
@@ -34,6 +36,7 @@ class TimeConsensus {
  private:
   struct Word {
     Duration ahead{};  ///< of the time here
+    Duration first{};  ///< the same, of the first in the row
     Duration uncertainty{};
     SwarmTime told{};
     int in_a_row = 0;

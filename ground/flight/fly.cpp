@@ -1,11 +1,13 @@
 #include "ground/flight/fly.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "common/base/interrupts.hpp"
@@ -29,6 +31,7 @@ struct FlyOptions {
   std::optional<double> duration_s;
   std::optional<std::string> logs;
   bool keep_logs = false;
+  std::optional<std::string> record;
   bool page = false;
   PageOptions page_options;
   program::NetworkOptions network;
@@ -78,6 +81,43 @@ int conclude(const Flight& flight, FlightDirectory& directory) {
   return say(program::kFailed, "All logs: " + directory.path());
 }
 
+std::string how_long(double duration_s) {
+  return std::isfinite(duration_s) ? text("for %.1f s", duration_s) : "until ctrl-c";
+}
+
+/// Where the flight is shown, if it is to be: the address goes to standard output.
+Result<std::unique_ptr<Page>> open_page(const FlyOptions& options, const FlightNetwork& net, Flight& flight,
+                                        Hurting& hurting) {
+  if (!options.page) return std::unique_ptr<Page>();
+  PageOwner owner;
+  owner.domain = net.domain;
+  owner.owns_processes = true;
+  auto page = Page::open(options.page_options, owner, *net.node, flight.view());
+  if (!page) return page;
+  flight.show_at(*page.value(), hurting);
+  std::printf("\nThe page: %s\n\n", page.value()->url().c_str());
+  std::fflush(stdout);
+  return page;
+}
+
+/// Before all others, and waited for: the recording has every word from the first one on.
+std::optional<FlightFailure> begin_recording(const FlyOptions& options, const FlightNetwork& net,
+                                             const std::string& home, Supervisor& supervisor) {
+  if (!options.record) return std::nullopt;
+  const std::string recorder = "recorder";
+  std::vector<std::string> command{home + "/gyre", "record", "-o", *options.record, "--mission", options.mission};
+  for (const std::string& word : net.arguments()) command.push_back(word);
+  const Result<pid_t> started = supervisor.start({recorder, std::move(command)});
+  if (!started) return FlightFailure{started.error().text, {}};
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (supervisor.log_tail(recorder).find("recording to") == std::string::npos) {
+    if (!supervisor.pid(recorder)) return FlightFailure{"it cannot be recorded", recorder};
+    if (std::chrono::steady_clock::now() > deadline) return FlightFailure{"the recorder did not begin", recorder};
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return std::nullopt;
+}
+
 int fly_certified(const FlyOptions& options, const mission::Mission& mission) {
   block_interrupts();  // before the node starts its threads
   const Result<std::string> home = own_directory();
@@ -85,7 +125,9 @@ int fly_certified(const FlyOptions& options, const mission::Mission& mission) {
   Result<FlightNetwork, FlightNetworkError> network = open_flight_network(options.network, carrier_ids(mission));
   if (!network) return say(network.error().bad_usage ? program::kBadUsage : program::kFailed, network.error().text);
   const FlightNetwork& net = network.value();
-  const auto programs = flight_programs(home.value(), options.mission, carrier_ids(mission), net.arguments());
+  std::vector<std::string> arguments = net.arguments();
+  if (options.page) arguments.emplace_back("--laboratory");  // who looks may also hurt it
+  const auto programs = flight_programs(home.value(), options.mission, carrier_ids(mission), arguments);
   if (!programs) return say(program::kFailed, programs.error().text);
   Result<FlightDirectory> made = FlightDirectory::make(options.logs);
   if (!made) return say(program::kFailed, made.error().text);
@@ -95,24 +137,16 @@ int fly_certified(const FlyOptions& options, const mission::Mission& mission) {
   // Somebody who looks decides how long.
   const double otherwise_s = options.page ? std::numeric_limits<double>::infinity() : mechanics::period_s(mission.plan);
   const double duration_s = options.duration_s.value_or(otherwise_s);
-  const std::string how_long = std::isfinite(duration_s) ? text("for %.1f s", duration_s) : "until ctrl-c";
-  std::fprintf(stderr, "Flying %s %s on domain %d, logs in %s\n", mission.name.c_str(), how_long.c_str(), net.domain,
-               directory.path().c_str());
+  std::fprintf(stderr, "Flying %s %s on domain %d, logs in %s\n", mission.name.c_str(), how_long(duration_s).c_str(),
+               net.domain, directory.path().c_str());
   FlightDisplay display;
   Supervisor supervisor(directory.path());
   Flight flight(mission, duration_s, *net.node, supervisor, display);
   Hurting hurting(*net.node, supervisor, programs.value());
-  std::unique_ptr<Page> page;
-  if (options.page) {
-    PageOwner owner;
-    owner.domain = net.domain;
-    owner.owns_processes = true;
-    auto opened = Page::open(options.page_options, owner, *net.node, flight.view());
-    if (!opened) return say(program::kFailed, opened.error().text);
-    page = std::move(opened).value();
-    flight.show_at(*page, hurting);
-    std::printf("The page: %s\n", page->url().c_str());
-    std::fflush(stdout);
+  const auto page = open_page(options, net, flight, hurting);
+  if (!page) return say(program::kFailed, page.error().text);
+  if (const auto unrecorded = begin_recording(options, net, home.value(), supervisor)) {
+    return report_failure(*unrecorded, supervisor, directory);
   }
   for (const Program& program : programs.value()) {
     const Result<pid_t> started = supervisor.start(program);
@@ -153,6 +187,7 @@ program::Command fly_command() {
                           program::Bounds{0.1, 7.0 * 86400.0}},
                          {"--logs", &options->logs, "directory for one log per process; kept (else a temporary one)"},
                          {"--keep-logs", &options->keep_logs, "keep the logs of a good flight too"},
+                         {"--record", &options->record, "record all that is said into this file (gyre record)"},
                          {"--page", &options->page, "serve the page of the flight, and fly until ctrl-c"}}),
            {"The page", page_options(options->page_options)},
            program::network_options(options->network, "the first that is free")},

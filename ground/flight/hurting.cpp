@@ -4,13 +4,61 @@
 #include <csignal>
 #include <utility>
 
-namespace gyre::ground {
+#include "common/base/text.hpp"
+#include "common/protocol/disturbance.hpp"
 
-Hurting::Hurting(dds::Node& /*node*/, Supervisor& supervisor, std::vector<Program> programs)
-    : supervisor_(supervisor), programs_(std::move(programs)) {}
+namespace gyre::ground {
+namespace {
+
+/// A link that is cut heals by itself: nobody could tell its process any more that it is over.
+constexpr Duration kCutOff = std::chrono::seconds(10);
+
+}  // namespace
+
+Hurting::Hurting(dds::Node& node, Supervisor& supervisor, std::vector<Program> programs)
+    : laboratory_(node.writer<protocol::Disturbance>()), supervisor_(supervisor), programs_(std::move(programs)) {}
 
 Answer Hurting::perform(const HurtRequest& wish) {
-  return to_process(wish);
+  switch (wish.kind) {
+    case HurtKind::kLose:
+    case HurtKind::kShiftClock:
+    case HurtKind::kPush:
+      return disturb(wish);
+    default:
+      return to_process(wish);
+  }
+}
+
+Answer Hurting::disturb(const HurtRequest& wish) {
+  protocol::Disturbance disturbance;
+  disturbance.process = wish.kind == HurtKind::kPush ? "simulator" : wish.process;
+  if (!supervisor_.pid(disturbance.process)) return {false, "no process called \"" + wish.process + "\" runs"};
+  std::string done;
+  if (wish.kind == HurtKind::kLose) {
+    disturbance.kind = protocol::DisturbanceKind::kLosePackets;
+    disturbance.share = wish.amount / 100.0;
+    done = text("%s loses %.0f %% of its packets", wish.process.c_str(), wish.amount);
+    if (disturbance.share > protocol::kMostLostForGood) {
+      disturbance.duration = kCutOff;
+      done += text(" for %.0f s", seconds(kCutOff));
+    }
+  } else if (wish.kind == HurtKind::kShiftClock) {
+    disturbance.kind = protocol::DisturbanceKind::kShiftClock;
+    disturbance.shift = from_seconds(wish.amount);
+    if (wish.process == "simulator") return {false, "the simulator's clock is the world's time"};
+    if (disturbance.shift > protocol::kFurthestShift || disturbance.shift < -protocol::kFurthestShiftBack) {
+      return {false, text("a clock is shifted by -%.0f to %.0f s", seconds(protocol::kFurthestShiftBack),
+                          seconds(protocol::kFurthestShift))};
+    }
+    done = text("the clock of %s was shifted by %+.3g s", wish.process.c_str(), wish.amount);
+  } else {
+    disturbance.kind = protocol::DisturbanceKind::kPushLoad;
+    disturbance.force_w_n = wish.force_w_n;
+    disturbance.duration = from_seconds(wish.duration_s);
+    done = text("the load was pushed with %.3g N for %.2g s", wish.force_w_n.norm(), wish.duration_s);
+  }
+  laboratory_.write(disturbance);
+  return {true, done};
 }
 
 Answer Hurting::to_process(const HurtRequest& wish) {

@@ -1,6 +1,6 @@
 #pragma once
-// Hurts a flight on purpose, as a person at the page asks: its processes, which are this program's own, and what they
-// hear.
+// Hurts a flight on purpose, as a person at the page asks: its processes, which are this program's own, by signals; their
+// packets, their clocks and the load by the laboratory (common/protocol/disturbance.hpp), which they were started with.
 
 #include <set>
 #include <string>
@@ -29,8 +29,10 @@ class Hurting {
 
  private:
   [[nodiscard]] Answer to_process(const HurtRequest& wish);
+  [[nodiscard]] Answer disturb(const HurtRequest& wish);
   [[nodiscard]] Answer restart(const Program& program);
 
+  dds::Writer<protocol::Disturbance> laboratory_;
   Supervisor& supervisor_;
   std::vector<Program> programs_;
   std::set<std::string> killed_;

@@ -24,8 +24,9 @@ namespace gyre::ground {
 
 PageBundle page_bundle() {
 #ifdef GYRE_PAGE_FOLDER
-  return {{gyre_page_html, static_cast<std::size_t>(gyre_page_html_end - gyre_page_html)},
-          {gyre_page_policy, static_cast<std::size_t>(gyre_page_policy_end - gyre_page_policy)}};
+  std::string_view policy(gyre_page_policy, static_cast<std::size_t>(gyre_page_policy_end - gyre_page_policy));
+  policy = policy.substr(0, policy.find('\n'));  // a header is one line
+  return {{gyre_page_html, static_cast<std::size_t>(gyre_page_html_end - gyre_page_html)}, policy};
 #else
   return {};
 #endif

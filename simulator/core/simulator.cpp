@@ -14,6 +14,7 @@
 #include "simulator/core/load_integrator.hpp"
 #include "simulator/core/on_silence.hpp"
 #include "simulator/core/onward.hpp"
+#include "simulator/core/push.hpp"
 #include "simulator/core/setpoint_judge.hpp"
 #include "simulator/core/winch.hpp"
 #include "simulator/core/wind.hpp"
@@ -89,6 +90,7 @@ struct Simulator::World {
         vehicles(std::move(all_vehicles)),
         judge(plan, longest_rest_m),
         wind(settings.wind, settings.seed, seconds(settings.tick)),
+        push(plan.load.mass_kg * plan.gravity_m_s2, settings.tick),
         integrator(
             LoadDynamics(rigid_load(plan)),
             {plan.load.position_w_m, Eigen::Vector3d::Zero(), plan.load.orientation_w_b, Eigen::Vector3d::Zero()}, 0.0,
@@ -98,7 +100,7 @@ struct Simulator::World {
 
   void surroundings(double t_s, Surroundings& out) const {
     for (std::size_t i = 0; i < vehicles.size(); ++i) out.anchors[i] = vehicles[i].anchor(t_s);
-    out.force_w_n = wind.force_w_n(t_s);
+    out.force_w_n = wind.force_w_n(t_s) + push.force_w_n();
   }
 
   [[nodiscard]] Duration simulated() const { return ticks * tick; }
@@ -141,6 +143,21 @@ struct Simulator::World {
     if (found != index.end()) vehicles[found->second].onward.take(held);
   }
 
+  void receive(LocalTime arrived, const Pushed& pushed, Outputs& out) {
+    if (auto objection = push.objection(pushed.force_w_n, pushed.duration)) {
+      latest_objection = std::move(*objection);
+      unreported_drops = true;
+      ++pushes_refused;
+      report_drops(arrived, out);
+      return;
+    }
+    push.begin(arrived, pushed.force_w_n, pushed.duration);
+    const Eigen::Vector3d& f = pushed.force_w_n;
+    out.notices.push_back(
+        {Notice::Level::kWarning, text("laboratory: the load is pushed by (%.4g, %.4g, %.4g) N for %.4g s", f.x(),
+                                       f.y(), f.z(), seconds(pushed.duration))});
+  }
+
   void report_drops(LocalTime now, Outputs& out) {
     if (!unreported_drops || !drop_reports.due(now)) return;
     unreported_drops = false;
@@ -150,6 +167,7 @@ struct Simulator::World {
   [[nodiscard]] protocol::DropCounts dropped() const {
     protocol::DropCounts counts = judge.dropped();
     counts.late += overrun;
+    counts.nonsense += pushes_refused;
     return counts;
   }
 
@@ -203,6 +221,7 @@ struct Simulator::World {
       vehicle.winch.tick(begin_s);
     }
     wind.tick(begin_s);
+    push.tick(time());
     ++ticks;
     if (auto failure = integrator.advance_to(seconds(simulated()))) {
       LoadMotion held = integrator.motion();
@@ -265,6 +284,7 @@ struct Simulator::World {
   std::map<CarrierId, std::size_t> index;
   SetpointJudge judge;
   Wind wind;
+  Push push;
   LoadIntegrator integrator;
   std::deque<WaitingSetpoint> waiting;
 
@@ -273,6 +293,7 @@ struct Simulator::World {
   std::optional<LocalTime> published_at;
   Duration skipped{};
   std::uint64_t overrun = 0;
+  std::uint64_t pushes_refused = 0;
   bool unreported_drops = false;
   std::string latest_objection;
   Reporter lag_reports, drop_reports, failure_reports;
@@ -323,6 +344,8 @@ Outputs Simulator::step(LocalTime now, const Event& event) {
     if (sane(*status)) world_->learn(now, *status);
   } else if (const auto* held = std::get_if<protocol::HeldPlans>(&event)) {
     if (sane(*held)) world_->learn(*held);
+  } else if (const auto* pushed = std::get_if<Pushed>(&event)) {
+    world_->receive(now, *pushed, out);
   } else {
     world_->advance(now, out);
   }

@@ -8,6 +8,7 @@
 //
 //   step(arrived, setpoint)    judged (setpoint_judge.hpp), then kept until its time
 //   step(arrived, status)      taken at once, and the plans that are held
+//   step(arrived, pushed)      judged, then kept until its time
 //   step(now, Advance{})       integrates to the last tick not after now, at most kTicksPerAdvance of them
 //
 // When the simulated time is behind (a stall of the process, a machine too slow), every missed tick is still
@@ -48,8 +49,13 @@ inline constexpr int kTicksPerAdvance = 100;
 inline constexpr std::size_t kMaxWaitingSetpoints = 4096;
 
 struct Advance {};
+/// Somebody pushes the load, at its centre of mass, from the first tick not before now (push.hpp).
+struct Pushed {
+  Eigen::Vector3d force_w_n = Eigen::Vector3d::Zero();
+  Duration duration{};
+};
 /// Of a carrier's agent: by its status and its plans the vehicle goes on when no more setpoints come (onward.hpp).
-using Event = std::variant<protocol::Setpoint, protocol::AgentStatus, protocol::HeldPlans, Advance>;
+using Event = std::variant<protocol::Setpoint, protocol::AgentStatus, protocol::HeldPlans, Pushed, Advance>;
 
 struct LagReport {
   Duration behind{};

@@ -261,6 +261,73 @@ TEST_F(AgentTest, AClockThatStoodStillIsFoundAnewAndMeanwhileTheVehicleKnowsBett
   EXPECT_EQ(status_->state, AgentState::kFlying) << "beacons are heard again";
 }
 
+// No time has passed; to the agent it is as if it had been stopped for so long.
+TEST_F(AgentTest, AClockThatLeaptIsFoundAnewAndMeanwhileTheVehicleKnowsBetter) {
+  for (const Duration leap : {Duration(milliseconds(700)), Duration(seconds(5)), Duration(std::chrono::hours(1))}) {
+    restart(1);
+    off_ = Duration::zero();
+    heard_.clear();
+    visit_ = nullptr;
+    engage();
+    now_ += leap;
+    off_ = -leap;
+    vehicle_at_rest();
+    vehicle_->position_w_m.x() += 0.1;
+    std::optional<protocol::Setpoint> first;
+    visit_ = [&](const protocol::Setpoint& s) {
+      if (!first) first = s;
+    };
+    fly(milliseconds(700));
+    EXPECT_FALSE(first) << "beacons are old, all of them: what it would say is for another time";
+    fly(seconds(2));
+    EXPECT_NE(heard_.find("a clock jumped"), std::string::npos) << heard_;
+    ASSERT_TRUE(first);
+    EXPECT_LT((first->position_w_m - vehicle_->position_w_m).norm(), 1e-3) << "it begins where the vehicle has got to";
+    EXPECT_LT(std::abs(gyre::seconds(setpoint_->swarm_time - swarm() - off_)), 0.05);
+    vehicle_.reset();
+    watch_for_steps();
+    fly(seconds(60));
+    EXPECT_LT(off_the_plan_m(), 1e-6);
+    EXPECT_EQ(status_->state, AgentState::kFlying) << "beacons are heard again";
+  }
+}
+
+// As a coordinator's is that learned swarm time from its agents' words, which were on their way for so long.
+TEST_F(AgentTest, AClockThatIsALittleOffIsFoundAnewWhileTheVehicleIsLed) {
+  for (const Duration off : {milliseconds(4), -milliseconds(4)}) {
+    restart(1);
+    off_ = Duration::zero();
+    heard_.clear();
+    visit_ = nullptr;
+    engage();
+    off_ = off;
+    watch_for_steps();
+    int setpoints = 0;
+    visit_ = [&setpoints, watch = visit_](const protocol::Setpoint& s) {
+      ++setpoints;
+      watch(s);
+    };
+    fly(seconds(3));
+    EXPECT_NE(heard_.find("a clock jumped"), std::string::npos) << heard_;
+    EXPECT_EQ(setpoints, 300) << "it was told where to be all the time, and need not tell where it is";
+    fly(seconds(60));
+    EXPECT_LT(off_the_plan_m(), 1e-6);
+  }
+}
+
+TEST_F(AgentTest, StoppedItDoesNotWaitForMoreThanItsFirstFreshBeacon) {
+  engage();
+  now_ += seconds(2);
+  for (int i = 100; i > 0; --i) {  // what has waited for it
+    tell(Beacon{kTerm, ++sequence_, swarm() - i * milliseconds(20), *course_, {}, {}});
+  }
+  int setpoints = 0;
+  visit_ = [&](const protocol::Setpoint&) { ++setpoints; };
+  vehicle_at_rest();
+  fly(milliseconds(300));
+  EXPECT_GE(setpoints, 14) << "after the time for which old words of its vehicle may come";
+}
+
 TEST_F(AgentTest, OneBeaconFromTheFutureSilencesNobody) {
   engage();
   watch_for_steps();

@@ -4,6 +4,7 @@
 
 #include "coordinator/core/command_desk.hpp"
 #include "coordinator/core/fleet.hpp"
+#include "coordinator/core/time_consensus.hpp"
 
 namespace gyre::coordinator {
 namespace {
@@ -19,6 +20,50 @@ protocol::AgentStatus status(CarrierId carrier, std::uint64_t sequence, std::uin
   s.sequence = sequence;
   s.incarnation = incarnation;
   return s;
+}
+
+protocol::AgentStatus told(CarrierId carrier, SwarmTime time) {
+  protocol::AgentStatus s = status(carrier, 1);
+  s.swarm_time = time;
+  s.course.base.number = {1, 1};
+  return s;
+}
+
+// Heard at two beats of the coordinator, one or two of them at each.
+TEST(TimeConsensus, BelievesWhoTellsTheSameOtherTimeAgainAndAgain) {
+  const std::vector<CarrierId> carriers{1, 2, 3};
+  for (const Duration period : {milliseconds(25), milliseconds(100)}) {
+    TimeConsensus consensus;
+    std::optional<Duration> correction;
+    for (int i = 0; i < 3; ++i) {
+      for (const CarrierId id : {1U, 2U}) {
+        EXPECT_FALSE(correction) << "not before the third word of more than half";
+        const SwarmTime sent(seconds(100) + i * period);
+        const Duration beat = milliseconds(20);
+        const SwarmTime heard((sent.time_since_epoch() / beat + 1) * beat - seconds(2));
+        consensus.take(heard, told(id, sent));
+        correction = consensus.correction(carriers);
+      }
+    }
+    ASSERT_TRUE(correction);
+    EXPECT_NEAR(gyre::seconds(*correction), 2.0, 0.021);
+  }
+}
+
+// A change makes agents speak every 25 ms. What they said while this process did not run is heard all at once.
+TEST(TimeConsensus, DoesNotBelieveWhatWaitedForAProcessThatDidNotRun) {
+  const std::vector<CarrierId> carriers{1, 2, 3};
+  for (const Duration period : {milliseconds(25), milliseconds(100)}) {
+    TimeConsensus consensus;
+    const SwarmTime heard(seconds(100));
+    for (Duration ago = milliseconds(600); ago > Duration::zero(); ago -= period) {
+      for (const CarrierId id : carriers) {
+        consensus.take(heard, told(id, heard - ago));
+        EXPECT_FALSE(consensus.correction(carriers));
+      }
+    }
+    EXPECT_FALSE(consensus.doubtful(carriers)) << "the last word is fresh";
+  }
 }
 
 TEST(Fleet, TellsWhoCameWentAndCameBackAnother) {

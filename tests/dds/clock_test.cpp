@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <atomic>
+#include <thread>
+
 #include "common/dds/inbox.hpp"
 
 namespace gyre {
@@ -108,6 +111,63 @@ TEST_F(ProcessClock, ASleepTellsHowLateItEnded) {
   EXPECT_LE(inbox.late(), at_most);
   EXPECT_TRUE(inbox.sleep_until(deadline).empty());
   EXPECT_EQ(inbox.late(), Duration::zero()) << "who comes after his deadline has only himself to blame";
+}
+
+TEST_F(ProcessClock, LeapsForwardsWhenItIsShifted) {
+  dds::set_clock_error(-5h, 100.0);
+  const LocalTime before = dds::now();
+  dds::shift_clock(5s);
+  const LocalTime after = dds::now();
+  EXPECT_GE(after, before + 5s);
+  EXPECT_LT(after, before + 5s + 1h) << "by no more than what has passed meanwhile";
+  const LocalTime deadline = dds::now() + 2ms;
+  dds::Inbox<int> inbox;
+  EXPECT_TRUE(inbox.wait_until(deadline).empty());
+  EXPECT_GE(dds::now(), deadline);
+  dds::set_clock_error({}, 0.0);
+  EXPECT_EQ(dds::steady_time(LocalTime(7s)), Steady(7s)) << "forgotten with the error";
+}
+
+TEST_F(ProcessClock, StandsStillAndNeverRunsBackwardsWhenItIsShiftedBack) {
+  dds::shift_clock(-1h);
+  const LocalTime stands = dds::now();
+  for (int i = 0; i < 1000; ++i) ASSERT_EQ(dds::now(), stands);
+  // It goes on when the machine's clock has passed so much more.
+  const Duration moment = dds::steady_time(stands + Duration(1)).time_since_epoch();
+  EXPECT_EQ(moment, stands.time_since_epoch() + 1h + Duration(1));
+  const Steady shown = dds::steady_time(stands);
+  EXPECT_LE(shown, std::chrono::steady_clock::now()) << "what it shows has come";
+  dds::shift_clock(2h);
+  EXPECT_GE(dds::now(), stands + 1h) << "a leap ends it, by what is left";
+}
+
+TEST_F(ProcessClock, GoesOnAfterItStoodStill) {
+  const LocalTime before = dds::now();
+  dds::shift_clock(-2ms);
+  const LocalTime deadline = dds::now() + 1ms;
+  dds::Inbox<int> inbox;
+  EXPECT_TRUE(inbox.wait_until(deadline).empty());
+  EXPECT_GE(dds::now(), deadline);
+  EXPECT_GE(std::chrono::steady_clock::now().time_since_epoch(), before.time_since_epoch() + 3ms);
+}
+
+TEST_F(ProcessClock, IsReadByOthersWhileItIsShifted) {
+  std::atomic<bool> done{false};
+  std::atomic<int> steps{0};
+  std::thread reader([&] {
+    LocalTime before = dds::now();
+    while (!done) {
+      const LocalTime after = dds::now();
+      // What another thread reads in the middle of a shift may be ahead of where the clock then stands by what the
+      // call takes, which is nothing to a second.
+      if (after < before - 1s) ++steps;
+      before = after;
+    }
+  });
+  for (int i = 0; i < 2000; ++i) dds::shift_clock(i % 2 == 0 ? Duration(5s) : Duration(-5s));
+  done = true;
+  reader.join();
+  EXPECT_EQ(steps, 0);
 }
 
 TEST(Inbox, GivesEveryEventOnceAndWhenItIsFullTheNewest) {

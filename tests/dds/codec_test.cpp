@@ -27,7 +27,8 @@ template <class Message>
 class EveryMessage : public testing::Test {};
 
 using Messages = testing::Types<Beacon, PlanOffer, HeldPlans, TimeRequest, TimeReply, AgentStatus, Setpoint,
-                                CarrierState, LoadState, Command, CommandReply, CoordinatorStatus, MissionText, Health>;
+                                CarrierState, LoadState, Command, CommandReply, CoordinatorStatus, MissionText, Health,
+                                Disturbance>;
 TYPED_TEST_SUITE(EveryMessage, Messages);
 
 /// A message through the generated serialisation as well, as it crosses the wire.
@@ -300,6 +301,12 @@ TEST(Codec, EnumeratorsThatDoNotExistAreNoMessage) {
     command.kind(static_cast<std::uint8_t>(value));
     EXPECT_FALSE(dds::decode(command)) << value;
   }
+  for (const int value : {0, 4, 255}) {
+    auto disturbance = *dds::encode(Disturbance{});
+    ASSERT_TRUE(dds::decode(disturbance));
+    disturbance.kind(static_cast<std::uint8_t>(value));
+    EXPECT_FALSE(dds::decode(disturbance)) << value;
+  }
 }
 
 TEST(Codec, AMissionIsSentWholeOrNotAtAll) {
@@ -345,6 +352,7 @@ TEST(Topics, FollowRosNamesAndNameTheCarrier) {
   EXPECT_EQ(dds::topic_name(dds::kTopic<CoordinatorStatus>, std::nullopt), "rt/gyre/coordinator/status");
   EXPECT_EQ(dds::topic_name(dds::kTopic<MissionText>, std::nullopt), "rt/gyre/mission");
   EXPECT_EQ(dds::topic_name(dds::kTopic<Health>, std::nullopt), "rt/gyre/health");
+  EXPECT_EQ(dds::topic_name(dds::kTopic<Disturbance>, std::nullopt), "rt/gyre/laboratory");
 }
 
 TYPED_TEST(EveryMessage, IsRegisteredUnderItsGeneratedTypesRosName) {

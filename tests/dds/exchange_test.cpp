@@ -66,7 +66,8 @@ template <class Message>
 class EveryMessage : public testing::Test {};
 
 using Messages = testing::Types<Beacon, PlanOffer, HeldPlans, TimeRequest, TimeReply, AgentStatus, Setpoint,
-                                CarrierState, LoadState, Command, CommandReply, CoordinatorStatus, MissionText, Health>;
+                                CarrierState, LoadState, Command, CommandReply, CoordinatorStatus, MissionText, Health,
+                                Disturbance>;
 TYPED_TEST_SUITE(EveryMessage, Messages);
 
 TYPED_TEST(EveryMessage, ArrivesBitForBit) {

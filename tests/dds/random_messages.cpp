@@ -56,6 +56,7 @@ template <class V> void each_field(protocol::CommandReply& m, V& v) { auto& [a, 
 template <class V> void each_field(protocol::CoordinatorStatus& m, V& v) { auto& [a, b, c, d, e, f, g, h, i] = m; visit_all(v, a, b, c, d, e, f, g, h, i); }
 template <class V> void each_field(protocol::MissionText& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
 template <class V> void each_field(protocol::Health& m, V& v) { auto& [a, b, c, d, e, f, g] = m; visit_all(v, a, b, c, d, e, f, g); }
+template <class V> void each_field(protocol::Disturbance& m, V& v) { auto& [a, b, c, d, e, f] = m; visit_all(v, a, b, c, d, e, f); }
 // clang-format on
 
 /// Fills fields with anything their type can hold; a third of the numbers are extremes. Runs inside a property.
@@ -106,6 +107,10 @@ struct Randomiser {
   void operator()(protocol::CommandKind& e) {
     using Kind = protocol::CommandKind;
     e = *rc::gen::element(Kind::kEngage, Kind::kRelease, Kind::kFreeze, Kind::kRetune, Kind::kPace);
+  }
+  void operator()(protocol::DisturbanceKind& e) {
+    using Kind = protocol::DisturbanceKind;
+    e = *rc::gen::element(Kind::kLosePackets, Kind::kShiftClock, Kind::kPushLoad);
   }
   void operator()(mechanics::LengthLaw::Kind& e) {
     using Kind = mechanics::LengthLaw::Kind;
@@ -218,5 +223,7 @@ template protocol::MissionText random_message<protocol::MissionText>();
 template std::string bits_of(const protocol::MissionText&);
 template protocol::Health random_message<protocol::Health>();
 template std::string bits_of(const protocol::Health&);
+template protocol::Disturbance random_message<protocol::Disturbance>();
+template std::string bits_of(const protocol::Disturbance&);
 
 }  // namespace gyre::tests

@@ -55,6 +55,7 @@ void FaultFlight::start_process(const std::string& name, const std::vector<std::
     command.insert(command.end(), {"--clock-offset-s", text("%.9f", clock->second.offset_s), "--clock-drift-ppm",
                                    text("%.9f", clock->second.drift_ppm)});
   }
+  if (options_.laboratory) command.emplace_back("--laboratory");
   command.insert(command.end(), more.begin(), more.end());
   ++lives_[name];
   auto process = ground::ChildProcess::start(

@@ -34,6 +34,7 @@ class FaultFlight {
     bool engage = true;                        ///< as soon as all are ready
     bool simulator = true;
     Watch watch = Watch::kEverything;
+    bool laboratory = false;  ///< the processes listen to disturbances
   };
 
   /// Starts the observer and every process.

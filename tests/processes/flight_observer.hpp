@@ -35,6 +35,7 @@ struct FlightRecord {
   Heards<protocol::Beacon> beacons;
   Heards<protocol::CommandReply> replies;
   Heards<protocol::LoadState> load;
+  Heards<protocol::Health> healths;
   std::map<CarrierId, CarrierRecord> carriers;
 };
 
@@ -61,6 +62,10 @@ class FlightObserver {
     return command.id;
   }
 
+  void disturb(const protocol::Disturbance& disturbance) { disturbances_.write(disturbance); }
+  /// Processes that were found to listen to them.
+  [[nodiscard]] int disturbed() const { return disturbances_.readers(); }
+
   /// What `question(const FlightRecord&)` answers, while nothing is added.
   template <class Question>
   [[nodiscard]] auto ask(const Question& question) const {
@@ -72,11 +77,13 @@ class FlightObserver {
   FlightObserver(std::unique_ptr<dds::Node> node, const std::vector<CarrierId>& carriers, Watch watch)
       : node_(std::move(node)) {
     commands_ = node_->writer<protocol::Command>();
+    disturbances_ = node_->writer<protocol::Disturbance>();
     for (const CarrierId id : carriers) keep(record_.carriers[id].statuses, id);
     if (watch == Watch::kStatuses) return;
     keep(record_.beacons, std::nullopt);
     keep(record_.replies, std::nullopt);
     keep(record_.load, std::nullopt);
+    keep(record_.healths, std::nullopt);
     for (const CarrierId id : carriers) {
       CarrierRecord& carrier = record_.carriers[id];  // a map's elements stay where they are
       keep(carrier.setpoints, id);
@@ -96,6 +103,7 @@ class FlightObserver {
   }
 
   dds::Writer<protocol::Command> commands_;
+  dds::Writer<protocol::Disturbance> disturbances_;
   std::uint64_t last_command_ = 0;
   mutable std::mutex mutex_;
   FlightRecord record_;

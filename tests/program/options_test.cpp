@@ -149,6 +149,22 @@ TEST_F(ClockOptionsTest, RefuseWhatNoClockCanBeWrongBy) {
   }
 }
 
+// A tool that only listens has nothing to disturb.
+TEST(LaboratoryOption, IsForProcessesThatFlyAndOffUnlessAskedFor) {
+  program::Options options;
+  EXPECT_EQ(run(program::with_common_in_flight({}, options), {}), 0);
+  EXPECT_FALSE(options.laboratory);
+  EXPECT_EQ(run(program::with_common_in_flight({}, options), {"--laboratory"}), 0);
+  EXPECT_TRUE(options.laboratory);
+  program::Options by_environment;
+  ::setenv("GYRE_LABORATORY", "true", 1);
+  EXPECT_EQ(run(program::with_common_in_flight({}, by_environment), {}), 0);
+  ::unsetenv("GYRE_LABORATORY");
+  EXPECT_TRUE(by_environment.laboratory);
+  program::Options of_a_tool;
+  EXPECT_EQ(run(program::with_common({}, of_a_tool), {"--laboratory"}), program::kBadUsage);
+}
+
 TEST(Interface, IsFoundByItsNameAndAnAddressIsTakenAsItIs) {
   EXPECT_EQ(dds::interface_address("lo").value(), "127.0.0.1");
   EXPECT_EQ(dds::interface_address("192.0.2.1").value(), "192.0.2.1");

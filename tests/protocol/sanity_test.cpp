@@ -346,6 +346,26 @@ TEST(Sanity, States) {
                                         });
 }
 
+TEST(Sanity, Disturbance) {
+  Disturbance good;
+  good.process = "agent 3";
+  expect_each_refused<Disturbance>(good, {
+                                             [](Disturbance& d) { d.process.assign(kMaxTextBytes + 1, 'x'); },
+                                             [](Disturbance& d) { d.kind = static_cast<DisturbanceKind>(0); },
+                                             [](Disturbance& d) { d.kind = static_cast<DisturbanceKind>(4); },
+                                             [](Disturbance& d) { d.share = -0.1; },
+                                             [](Disturbance& d) { d.share = 1.1; },
+                                             [](Disturbance& d) { d.shift = Duration::min(); },
+                                             [](Disturbance& d) { d.shift = Duration::max(); },
+                                             [](Disturbance& d) { d.duration = Duration(-1); },
+                                             [](Disturbance& d) { d.duration = Duration::max(); },
+                                         });
+  expect_numbers_refused<Disturbance>(good, {
+                                                [](Disturbance& d) -> double& { return d.share; },
+                                                [](Disturbance& d) -> double& { return d.force_w_n.y(); },
+                                            });
+}
+
 RC_GTEST_PROP(Sanity, EveryPlanOfOursIsSane, ()) {
   for (const mechanics::CarrierSlice& slice : mechanics::slices(mechanics::test::random_plan())) {
     RC_ASSERT(sane(PlanOffer{slice.id, 1, 1, {{{1, 1}, slice}}, {}}));

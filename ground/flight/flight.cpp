@@ -81,8 +81,7 @@ void Flight::take(const Heard& heard) {
   if (!view_.step(heard.arrived, heard.message)) return;
   if (page_) page_->hear(heard.arrived, heard.message);
   if (const auto* command = std::get_if<protocol::Command>(&heard.message);
-      page_ && command && ordered_ != command->id) {
-    ordered_ = command->id;
+      page_ && command && ordered_.insert(command->id).second) {
     by_hand_.push_back("asked to " + order_words(*command));
   }
   monitor_.look(heard.arrived);

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -80,7 +81,7 @@ class Flight {
   StarvationJudge starvation_;
   std::optional<LocalTime> release_deadline_;
   bool released_ = false;
-  std::uint64_t ordered_ = 0;  ///< the command heard last: it is said again until it is answered
+  std::set<std::uint64_t> ordered_;  ///< commands that were heard: each is said again until it is answered
   int interrupts_ = 0;
 };
 

@@ -32,7 +32,9 @@ Answer Hurting::perform(const HurtRequest& wish) {
 Answer Hurting::disturb(const HurtRequest& wish) {
   protocol::Disturbance disturbance;
   disturbance.process = wish.kind == HurtKind::kPush ? "simulator" : wish.process;
-  if (!supervisor_.pid(disturbance.process)) return {false, "no process called \"" + wish.process + "\" runs"};
+  if (!supervisor_.pid(disturbance.process)) {
+    return {false, "no process called \"" + disturbance.process + "\" runs"};
+  }
   std::string done;
   if (wish.kind == HurtKind::kLose) {
     disturbance.kind = protocol::DisturbanceKind::kLosePackets;

@@ -32,9 +32,10 @@ class BoundedStream final : public httplib::Stream {
  public:
   BoundedStream(socket_t socket, const ServerBounds& bounds) : socket_(socket), bounds_(bounds) {}
 
-  /// Whether another request begins before the connection counts as idle; from then on its bounds count.
+  /// Whether another request begins before the connection counts as idle; from then on its bounds count. Where the one
+  /// before was not read to its end, nobody knows where the next begins.
   bool begin_request() {
-    if (at_ == end_ && !ready_by(socket_, POLLIN, Clock::now() + bounds_.idle_time)) return false;
+    if (broken_ || (at_ == end_ && !ready_by(socket_, POLLIN, Clock::now() + bounds_.idle_time))) return false;
     bytes_left_ = bounds_.request_bytes;
     deadline_ = Clock::now() + bounds_.request_time;
     return true;
@@ -44,9 +45,13 @@ class BoundedStream final : public httplib::Stream {
   bool is_writable() const override { return ready_by(socket_, POLLOUT, Clock::now() + bounds_.write_time); }
 
   ssize_t read(char* into, size_t size) override {
-    if (at_ == end_ && !fill()) return -1;
+    broken_ = broken_ || (at_ == end_ && !fill());
+    if (broken_) return -1;
     const std::size_t taken = std::min({size, end_ - at_, bytes_left_});
-    if (taken == 0) return at_ == end_ ? 0 : -1;  // the other side is done, or the request is too long
+    if (taken == 0) {  // the other side is done, or the request is too long
+      broken_ = true;
+      return at_ == end_ ? 0 : -1;
+    }
     std::copy_n(buffer_.begin() + static_cast<std::ptrdiff_t>(at_), taken, into);
     at_ += taken;
     bytes_left_ -= taken;
@@ -89,6 +94,7 @@ class BoundedStream final : public httplib::Stream {
   std::array<char, 4096> buffer_{};
   std::size_t at_ = 0, end_ = 0;
   std::size_t bytes_left_ = 0;
+  bool broken_ = false;
   Clock::time_point deadline_{};
 };
 

@@ -7,6 +7,7 @@
 #include "common/base/angle.hpp"
 #include "common/base/text.hpp"
 #include "common/protocol/term.hpp"
+#include "ground/page/core/utf8.hpp"
 #include "ground/page/protobuf_json.hpp"
 #include "ground/swarm/core/course_line.hpp"
 #include "ground/swarm/core/process_list.hpp"
@@ -164,11 +165,11 @@ void set(page::Dropped* out, const protocol::DropCounts& dropped) {
 }
 
 void set(page::Process& out, const ProcessLine& line, const SwarmView& view, const std::vector<OwnProcess>& own) {
-  out.set_name(line.name);
+  out.set_name(utf8(line.name));
   out.set_state(line.state);
   out.set_well(line.well);
-  out.set_complaint(line.complaint);
-  out.set_address(line.address);
+  out.set_complaint(utf8(line.complaint));
+  out.set_address(utf8(line.address));
   out.set_heard_age_s(line.age ? seconds(*line.age) : kUnknown);
   out.set_carrier(line.carrier);
   out.set_clock_uncertainty_s(kUnknown);
@@ -208,7 +209,7 @@ std::string hello_json(const PageOwner& owner) {
 std::string mission_json(const Shown& shown) {
   page::Mission out;
   const auto& coordinator = shown.view.coordinator();
-  if (coordinator) out.set_name(coordinator->mission);
+  if (coordinator) out.set_name(utf8(coordinator->mission));
   if (coordinator) out.set_plan(plan_number(coordinator->plan));
   set(out.mutable_orientation_w_b(), Eigen::Quaterniond::Identity());
   set(out.mutable_limits(), mechanics::Limits{});
@@ -258,7 +259,7 @@ std::string status_json(const Shown& shown, const std::optional<std::string>& co
   page::Status out;
   out.set_connected(!view.beacon_heard().silent(shown.now));
   out.set_calm(!complaint);
-  out.set_complaint(complaint.value_or(""));
+  out.set_complaint(utf8(complaint.value_or("")));
   out.set_lease_left_s(kInfinity);
   out.set_skew_s(kUnknown);
   if (const auto swarm_time = view.swarm_time(shown.now)) {
@@ -268,7 +269,7 @@ std::string status_json(const Shown& shown, const std::optional<std::string>& co
     if (beacon.course.lease) out.set_lease_left_s(seconds(*beacon.course.lease - *swarm_time));
   }
   if (const auto& coordinator = view.coordinator()) {
-    out.set_news(coordinator->news);
+    out.set_news(utf8(coordinator->news));
     out.set_term(protocol::generation(coordinator->term));
     if (coordinator->skew < std::chrono::hours(1)) out.set_skew_s(seconds(coordinator->skew));
     out.set_skew_budget_s(seconds(coordinator->skew_budget));
@@ -284,8 +285,8 @@ std::string status_json(const Shown& shown, const std::optional<std::string>& co
   for (const ProcessLine& line : lines) set(*out.add_processes(), line, view, own);
   for (const MissingThing& thing : missing(view, shown.now)) {
     page::Missing* const one = out.add_missing();
-    one->set_who(thing.who);
-    one->set_what(thing.what);
+    one->set_who(utf8(thing.who));
+    one->set_what(utf8(thing.what));
   }
   out.set_displacement_max_m(flown.displacement_max_m);
   out.set_rotation_max_deg(flown.rotation_max_deg);
@@ -309,8 +310,8 @@ std::string happening_json(const Happening& happening) {
   out.set_level(happening.level == Notice::Level::kInfo      ? page::Happening::INFO
                 : happening.level == Notice::Level::kWarning ? page::Happening::WARNING
                                                              : page::Happening::ERROR);
-  out.set_who(happening.who);
-  out.set_text(happening.text);
+  out.set_who(utf8(happening.who));
+  out.set_text(utf8(happening.text));
   return json_of(out);
 }
 

@@ -7,6 +7,7 @@
 #include "common/mechanics/certificate.hpp"
 #include "common/mission/mission.hpp"
 #include "ground/check/certificate_table.hpp"
+#include "ground/page/core/utf8.hpp"
 #include "ground/page/protobuf_json.hpp"
 #include "idl/page.pb.h"
 
@@ -25,7 +26,7 @@ bool within(double amount, double most) {
 std::string answer_json(const Answer& answer) {
   page::Answer out;
   out.set_done(answer.done);
-  out.set_text(answer.text);
+  out.set_text(utf8(answer.text));
   return json_of(out);
 }
 
@@ -73,7 +74,7 @@ Result<std::string> verdict_json(const std::string& request_json) {
   const auto mission = mission::parse_mission(read.value().mission(), "mission");
   out.set_readable(mission.ok());
   if (!mission) {
-    out.set_text(mission.error().text);
+    out.set_text(utf8(mission.error().text));
     return json_of(out);
   }
   const mechanics::Certificate certificate = mechanics::certify(mission.value().plan);

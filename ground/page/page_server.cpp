@@ -234,9 +234,11 @@ Result<std::unique_ptr<PageServer>> PageServer::open(const PageServerOptions& op
   server.new_task_queue = [] { return new httplib::ThreadPool(kMostWatchers + kShortRequests); };
   server.set_tcp_nodelay(true);
   // Its own default would let a second server take the same port, and each of them half of the browsers.
-  server.set_socket_options([](socket_t socket) {
+  socket_t bound = INVALID_SOCKET;
+  server.set_socket_options([&bound](socket_t socket) {
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    bound = socket;  // the last one is the one that could be bound
   });
   impl->route();
   if (options.port == 0) {
@@ -254,6 +256,10 @@ Result<std::unique_ptr<PageServer>> PageServer::open(const PageServerOptions& op
     return Error{"the page cannot be served at " + options.address + ", " + where +
                  ": taken by another server, or no address of this machine; choose with --port and --address"};
   }
+  // It lets five wait to be taken in, and browsers come with more connections than that: the others would begin anew
+  // after a second.
+  ::listen(bound, kMostWatchers + static_cast<int>(kShortRequests));
+  server.set_socket_options(nullptr);
   impl->listening = std::thread([raw = impl.get()] { raw->server.listen_after_bind(); });
   while (!server.is_running()) std::this_thread::yield();  // one that does not run yet cannot be stopped
   return std::unique_ptr<PageServer>(new PageServer(std::move(impl)));

@@ -79,7 +79,12 @@ TEST(PageOrders, WhatIsNoOrderIsSaidToBeNone) {
 }
 
 TEST(PageOrders, AMissionThatARetuneCannotCarryIsRefusedWithItsSize) {
-  const test::HeardSwarm large(100);
+  test::HeardSwarm large(100);
+  for (mechanics::Carrier& carrier : large.mission.plan.carriers) {
+    carrier.radius_m = carrier.vehicle.time_constant_s = 0.0123456789012345;
+    carrier.vehicle.mass_kg = carrier.vehicle.thrust_max_n = 10.123456789012345;
+  }
+  large.text.text = mission::to_text(large.mission);
   ASSERT_GT(large.text.text.size(), protocol::kMaxMissionBytes);
   EXPECT_THAT(complaint_of_order(json_with_mission("RETUNE", large.text.text)),
               testing::AllOf(HasSubstr("bytes are more than the 32768"), HasSubstr("fewer carriers")));

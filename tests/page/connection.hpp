@@ -13,8 +13,10 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace gyre::test {
 
@@ -62,16 +64,30 @@ class Connection {
   }
   /// Reads until these words are there, or the end; what was read is kept. False: they did not come.
   bool reads(std::string_view words) {
-    while (got_.find(words) == std::string::npos) {
+    for (std::size_t known = 0; got_.find(words, known) == std::string::npos;) {
+      known = got_.size() - std::min(got_.size(), words.size());
       if (!read_some()) return false;
     }
     return true;
+  }
+  /// What was read up to the end of these words, which is kept no longer; absent: they did not come.
+  std::optional<std::string> takes(std::string_view words) {
+    if (!reads(words)) return std::nullopt;
+    const std::size_t end = got_.find(words) + words.size();
+    std::string taken = got_.substr(0, end);
+    got_.erase(0, end);
+    return taken;
   }
   /// Reads until the other side closes; false: it does not.
   bool reads_the_end() {
     while (read_some()) {
     }
     return ended_;
+  }
+  /// Takes what is there, keeps nothing of it; how many bytes that was.
+  std::size_t drains() {
+    (void)read_some();
+    return std::exchange(got_, {}).size();
   }
   [[nodiscard]] const std::string& got() const { return got_; }
   void forget() { got_.clear(); }

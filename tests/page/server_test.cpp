@@ -151,7 +151,8 @@ TEST_F(ServerTest, WithoutTheTokenNothingIsAskedFor) {
 TEST_F(ServerTest, ForeignPagesGetNothingDone) {
   serve();
   const std::string token = std::string("X-Gyre-Token: ") + kToken + "\r\n";
-  for (const std::string origin : {"http://evil.example", "null", "https://" + host(), "http://127.0.0.1:1"}) {
+  const std::vector<std::string> foreign{"http://evil.example", "null", "https://" + host(), "http://127.0.0.1:1"};
+  for (const std::string& origin : foreign) {
     const Reply reply = ask(post("/api/order", kEngage, token + "Origin: " + origin + "\r\n"));
     EXPECT_EQ(reply.status, 403) << origin;
     EXPECT_THAT(words(reply), HasSubstr("own page"));

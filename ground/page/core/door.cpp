@@ -44,13 +44,14 @@ bool is_own_host(std::string_view host, const std::vector<std::string>& names) {
   if (name.size() > 2 && name.front() == '[' && name.back() == ']') {
     return all_of(name.substr(1, name.size() - 2), "0123456789abcdefABCDEF:.");
   }
-  return all_of(name, "0123456789.") && std::count(name.begin(), name.end(), '.') == 3;
+  return all_of(name, "0123456789.") && std::count(name.begin(), name.end(), '.') == 3 && name.front() != '.' &&
+         name.back() != '.' && name.find("..") == std::string_view::npos;
 }
 
 bool is_same_origin(std::string_view origin, std::string_view host) {
   if (origin.empty()) return true;
   constexpr std::string_view kScheme = "http://";
-  return origin.substr(0, kScheme.size()) == kScheme && origin.substr(kScheme.size()) == host;
+  return !host.empty() && origin.substr(0, kScheme.size()) == kScheme && origin.substr(kScheme.size()) == host;
 }
 
 bool RateJudge::admits(LocalTime now) {

@@ -76,7 +76,7 @@ void Happenings::on(LocalTime now, const protocol::CoordinatorStatus& status) {
   }
   if (status.news != news_ && !status.news.empty()) tell(now, Level::kInfo, "coordinator", status.news);
   news_ = status.news;
-  for (const CarrierId id : status.carriers) {
+  for (const CarrierId id : view_.carrier_ids()) {
     Agent& agent = agents_[id];
     const bool silent = view_.named_silent(id);
     if (silent == agent.silent) continue;

@@ -53,6 +53,7 @@ bool SwarmView::on(LocalTime arrived, const protocol::CoordinatorStatus& status)
   if (is_outdated(coordinator_, status, coordinator_heard_, arrived)) return false;
   coordinator_ = status;
   coordinator_->carriers = possible(status.carriers);
+  coordinator_->silent = possible(status.silent);
   coordinator_heard_.heard(arrived);
   if (outdated_mission_ && outdated_mission_->term == status.term) {
     mission_ = std::exchange(outdated_mission_, std::nullopt);

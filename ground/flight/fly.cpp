@@ -92,7 +92,7 @@ Result<std::unique_ptr<Page>> open_page(const FlyOptions& options, const FlightN
   PageOwner owner;
   owner.domain = net.domain;
   owner.owns_processes = true;
-  auto page = Page::open(options.page_options, owner, *net.node, flight.view());
+  auto page = Page::open(options.page_options, owner, net.node.get(), flight.view());
   if (!page) return page;
   flight.show_at(*page.value(), hurting);
   std::printf("\nThe page: %s\n\n", page.value()->url().c_str());

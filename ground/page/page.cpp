@@ -29,13 +29,13 @@ std::vector<program::Option> page_options(PageOptions& options) {
       {"--host", &options.hosts, "a name by which browsers call this machine, beside its addresses"}};
 }
 
-Page::Page(std::unique_ptr<PageServer> server, const PageOwner& owner, dds::Node& node, const SwarmView& view)
+Page::Page(std::unique_ptr<PageServer> server, const PageOwner& owner, dds::Node* node, const SwarmView& view)
     : server_(std::move(server)),
       feed_(view, server_->stage(), owner, dds::now()),
       owns_processes_(owner.owns_processes),
-      commands_(node.writer<protocol::Command>()) {}
+      commands_(node ? node->writer<protocol::Command>() : dds::Writer<protocol::Command>()) {}
 
-Result<std::unique_ptr<Page>> Page::open(const PageOptions& options, const PageOwner& asked, dds::Node& node,
+Result<std::unique_ptr<Page>> Page::open(const PageOptions& options, const PageOwner& asked, dds::Node* node,
                                          const SwarmView& view) {
   PageServerOptions served;
   served.address = options.address;

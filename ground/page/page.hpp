@@ -33,9 +33,10 @@ struct HurtTask {
 
 class Page {
  public:
-  /// `node`, over which orders go, and `view` outlive it. Errors as PageServer::open.
+  /// `node`, over which orders go (nullptr: there is nobody to give them to), and `view` outlive it. Errors as
+  /// PageServer::open.
   [[nodiscard]] static Result<std::unique_ptr<Page>> open(const PageOptions& options, const PageOwner& owner,
-                                                          dds::Node& node, const SwarmView& view);
+                                                          dds::Node* node, const SwarmView& view);
 
   /// After every message that the view believed.
   void hear(LocalTime now, const SwarmMessage& message);
@@ -48,7 +49,7 @@ class Page {
   [[nodiscard]] std::string url() const { return server_->url(); }
 
  private:
-  Page(std::unique_ptr<PageServer> server, const PageOwner& owner, dds::Node& node, const SwarmView& view);
+  Page(std::unique_ptr<PageServer> server, const PageOwner& owner, dds::Node* node, const SwarmView& view);
 
   std::unique_ptr<PageServer> server_;
   PageFeed feed_;

@@ -29,7 +29,7 @@ int serve(const ServeOptions& options) {
   SwarmView view;
   PageOwner owner;
   owner.domain = node.domain();
-  const auto page = Page::open(options.page, owner, node, view);
+  const auto page = Page::open(options.page, owner, &node, view);
   if (!page) {
     log_error(page.error().text);
     return program::kFailed;

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "tests/page/event_stream.hpp"
 #include "tests/processes/launched.hpp"
 #include "tests/recording/judge.hpp"
 #include "tests/recording/said_of.hpp"
@@ -96,6 +97,21 @@ TEST_F(RecordTest, AFlightIsRecordedAndAKilledRecorderLosesItsLastSecondOnly) {
   EXPECT_THAT(report.said(), HasSubstr("GOOD: the flight stayed inside its certificate."));
   EXPECT_THAT(report.said(), HasSubstr("The file has no end"));
   EXPECT_TRUE(std::filesystem::exists(directory() + "/report/index.html"));
+
+  // And gyre replay shows it again, as far as it goes.
+  Launched replay = gyre({"replay", path, "--page", "--port", "0", "--speed", "4"});
+  ASSERT_TRUE(replay.says_within(20.0, "#token=")) << replay.said();
+  EventStream stream(std::stoi(replay.said().substr(replay.said().find("http://127.0.0.1:") + 17)));
+  const auto hello = stream.until("hello", [](const json&) { return true; });
+  ASSERT_TRUE(hello);
+  EXPECT_EQ((*hello)["takes_orders"], false);
+  const auto flying = stream.until("frame", [](const json& frame) { return frame["pace"] == 1.0; });
+  ASSERT_TRUE(flying);
+  EXPECT_EQ((*flying)["carriers"].size(), 4U);
+  replay.send(SIGTERM);
+  EXPECT_EQ(replay.end_within(10.0).exit_code, 0) << replay.said();
+  Launched to_the_cut = gyre({"replay", killed_path, "--page", "--port", "0", "--speed", "100"});
+  EXPECT_TRUE(to_the_cut.says_within(20.0, "the recording was cut off here")) << to_the_cut.said();
 
   const bool judged = judged_by_others(path, whole) && judged_by_others(killed_path, cut);
   if (!judged) GTEST_SKIP() << "all good, and not judged by others: no Node, or no npm";

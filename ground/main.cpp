@@ -7,6 +7,7 @@
 #include "ground/page/serve.hpp"
 #include "ground/plot/plot.hpp"
 #include "ground/recording/record.hpp"
+#include "ground/report/report.hpp"
 #include "ground/swarm/health.hpp"
 #include "ground/swarm/orders.hpp"
 #include "ground/swarm/status.hpp"
@@ -15,10 +16,11 @@
 int main(int argc, char** argv) {
   using namespace gyre::ground;
   return gyre::program::run(
-      gyre::program::Family{"gyre",
-                            "Gyre: a load that hangs still while the vehicles that carry it never stop.",
-                            {check_command(), sample_command(), design_command(), plot_command(), fly_command(),
-                             engage_command(), release_command(), freeze_command(), pace_command(), retune_command(),
-                             status_command(), watch_command(), health_command(), serve_command(), record_command()}},
+      gyre::program::Family{
+          "gyre",
+          "Gyre: a load that hangs still while the vehicles that carry it never stop.",
+          {check_command(), sample_command(), design_command(), plot_command(), fly_command(), engage_command(),
+           release_command(), freeze_command(), pace_command(), retune_command(), status_command(), watch_command(),
+           health_command(), serve_command(), record_command(), report_command()}},
       argc, argv);
 }

@@ -47,7 +47,11 @@ CLI::Option* declare(CLI::App& app, const Option& option, T& value) {
   } else {
     CLI::Option* const declared = app.add_option(option.name, value, option.meaning);
     if constexpr (std::is_same_v<T, std::vector<std::string>>) {
-      declared->delimiter(',')->expected(1)->take_all();
+      if (option.name.front() == '-') {
+        declared->delimiter(',')->expected(1)->take_all();
+      } else {
+        declared->expected(1, CLI::detail::expected_max_vector_size);  // the shell has parted them
+      }
     } else if constexpr (!IsOptional<T>::value) {
       if (option.take == Take::kUsually) declared->capture_default_str();
     }

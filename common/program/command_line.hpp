@@ -31,7 +31,8 @@ struct Bounds {
 inline constexpr Bounds kPositive{std::numeric_limits<double>::min(), std::numeric_limits<double>::max()};
 
 /// Where an option's value goes; it has to live until the command has run. What stands there before is the default. A
-/// vector takes the option any number of times, and from the environment words with commas between them.
+/// vector takes the option any number of times, and from the environment words with commas between them; one that is
+/// named by its place takes every word that is left.
 using Target =
     std::variant<bool*, std::string*, std::optional<std::string>*, std::vector<std::string>*, int*, std::optional<int>*,
                  std::uint32_t*, std::uint64_t*, std::optional<std::uint64_t>*, double*, std::optional<double>*>;

@@ -118,7 +118,7 @@ RC_GTEST_PROP(Plot, WhatIsWrittenOfAnyPlanCanBeRead, ()) {
 TEST(Plot, VehiclesStandWhereTheyAreAndAreAsLargeAsTheyAre) {
   const Plan plan = shipped("hex-multirotor").plan;
   const ground::Motion motion = ground::motion(plan, mechanics::certify(plan));
-  const ground::Frames frames = ground::frames(motion, {0.0, 0.0}, 944.0);
+  const ground::Frames frames = ground::frames(ground::extents(motion), {0.0, 0.0}, 944.0);
   const double radius = 0.4 * frames.above.px_per_m();
   std::vector<std::vector<Point>> vehicles(motion.carriers.size());  // from above, from the side
   for (const Element& circle : drawn(plan).all("circle")) {
@@ -237,7 +237,7 @@ RC_GTEST_PROP(Plot, AnyBytesAreEscapedToText, (const std::string& bytes)) {
 TEST(Plot, OrbitsOfAllLawsCloseAndAreSeenWhole) {
   for (const Plan& plan : plans()) {
     const ground::Motion motion = ground::motion(plan, mechanics::certify(plan));
-    const ground::Frames frames = ground::frames(motion, {28.0, 100.0}, 944.0);
+    const ground::Frames frames = ground::frames(ground::extents(motion), {28.0, 100.0}, 944.0);
     for (const ground::Frame* frame : {&frames.above, &frames.side}) {
       EXPECT_NEAR(frame->px_per_m(), frames.above.px_per_m(), 1e-9 * frames.above.px_per_m());
       EXPECT_NEAR(frame->plot.height() / frame->up.shown.span(), frame->px_per_m(), 1e-9 * frame->px_per_m());
@@ -257,7 +257,8 @@ TEST(Plot, OrbitsOfAllLawsCloseAndAreSeenWhole) {
 
 TEST(Plot, UpIsUpAndNorthIsUpFromAbove) {
   const Plan plan = shipped("paper").plan;
-  const ground::Frames frames = ground::frames(ground::motion(plan, mechanics::certify(plan)), {0.0, 0.0}, 944.0);
+  const ground::Frames frames =
+      ground::frames(ground::extents(ground::motion(plan, mechanics::certify(plan))), {0.0, 0.0}, 944.0);
   EXPECT_LT(frames.above({0.0, 1.0, 0.0}).y, frames.above({0.0, 0.0, 0.0}).y);
   EXPECT_GT(frames.above({1.0, 0.0, 0.0}).x, frames.above({0.0, 0.0, 0.0}).x);
   EXPECT_LT(frames.side({0.0, 0.0, 1.0}).y, frames.side({0.0, 0.0, 0.0}).y);

@@ -90,6 +90,13 @@ TEST_F(RecordTest, AFlightIsRecordedAndAKilledRecorderLosesItsLastSecondOnly) {
   EXPECT_THAT(cut["problems"].dump(), HasSubstr("cut off"));
   EXPECT_GT(count(cut, "/gyre/carrier_1/setpoint"), 100U) << "three seconds at 100 Hz, less the last one";
 
+  // gyre report says of the recording what gyre fly said of the flight, and of the killed one as far as it goes.
+  Launched report = gyre({"report", path, killed_path, "-o", directory() + "/report"});
+  EXPECT_EQ(report.end_within(20.0).exit_code, 0) << report.said();
+  EXPECT_THAT(report.said(), HasSubstr("GOOD: the flight stayed inside its certificate."));
+  EXPECT_THAT(report.said(), HasSubstr("The file has no end"));
+  EXPECT_TRUE(std::filesystem::exists(directory() + "/report/index.html"));
+
   const bool judged = judged_by_others(path, whole) && judged_by_others(killed_path, cut);
   if (!judged) GTEST_SKIP() << "all good, and not judged by others: no Node, or no npm";
 }

@@ -55,15 +55,22 @@ std::string timing_line(const TimingRecord& timing) {
 
 }  // namespace
 
-std::string flight_table(const FlightReport& report) {
-  std::string out = report.mission + text(": flown for %.1f s\n\n", report.flown_s) + aligned(rows(report)) + "\n";
+FlightWords flight_words(const FlightReport& report) {
   const LoadRecord& load = report.load;
-  out += "  load       displaced by at most " + text("%.3g mm", load.displacement_max_m * 1e3) +
-         text(" (allowed %.4g), turned by at most %.2g degrees (allowed %.4g)",
-              report.load_tolerance.displacement_max_m * 1e3, load.rotation_max_deg,
-              report.load_tolerance.rotation_max_deg) +
-         (report.load_inside ? "\n" : " !\n");
-  out += "  timing     " + timing_line(report.timing) + "\n";
+  return {rows(report),
+          "displaced by at most " + text("%.3g mm", load.displacement_max_m * 1e3) +
+              text(" (allowed %.4g), turned by at most %.2g degrees (allowed %.4g)",
+                   report.load_tolerance.displacement_max_m * 1e3, load.rotation_max_deg,
+                   report.load_tolerance.rotation_max_deg) +
+              (report.load_inside ? "" : " !"),
+          timing_line(report.timing)};
+}
+
+std::string flight_table(const FlightReport& report) {
+  const FlightWords words = flight_words(report);
+  std::string out = report.mission + text(": flown for %.1f s\n\n", report.flown_s) + aligned(words.rows) + "\n";
+  out += "  load       " + words.load + "\n";
+  out += "  timing     " + words.timing + "\n";
   if (report.good()) return out + "\nGOOD: the flight stayed inside its certificate.\n";
   out += "\nOUTSIDE its certificate:\n";
   for (const std::string& violation : report.violations) out += "  - " + violation + "\n";

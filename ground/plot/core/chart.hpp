@@ -1,5 +1,6 @@
 #pragma once
-// One figure of every carrier over a period, under the limits it is held to, with its certified extremes beside it.
+// A figure over time of several that are told apart by their tones, under the limits it is held to, with its certified
+// extremes beside it, and with what was flown where something was.
 
 #include <functional>
 #include <optional>
@@ -13,6 +14,33 @@
 
 namespace gyre::ground {
 
+struct ChartLine {
+  Tone tone = kInk;
+  std::vector<std::vector<Point>> pieces;  ///< through time [s] and figure; nothing is known between two
+  std::optional<mechanics::Range> certified, flown;
+};
+
+struct Chart {
+  std::string title, unit;
+  std::vector<ChartLine> lines;
+  std::optional<double> limit_min, limit_max;
+  mechanics::Range time_s;
+  std::string time_name = "time, s";
+  std::optional<mechanics::Range> shows;   ///< what the axis shows in any case
+  std::vector<mechanics::Range> marked_s;  ///< stretches of time that are marked at the axis
+  bool fine = false;                       ///< of many points, those that nobody would miss are left out
+};
+
+/// `place` takes in the axes and the title.
+void draw_chart(Svg& svg, const Chart& chart, const Box& place);
+
+/// What is left of a place for the curves.
+[[nodiscard]] double chart_width_px(const Box& place);
+
+/// What the chart's axis shows: another one that shows it too is in the same scale.
+[[nodiscard]] mechanics::Range chart_shows(const Chart& chart);
+
+/// What a certificate speaks of, of every carrier.
 struct Figure {
   const char* title;
   const char* unit;
@@ -24,8 +52,7 @@ struct Figure {
 /// Tension, length, speed, winch rate.
 [[nodiscard]] std::vector<Figure> figures(const mechanics::Limits& limits);
 
-/// `place` takes in the axes and the title.
-void draw_chart(Svg& svg, const Figure& figure, const Motion& motion, const mechanics::Certificate& certificate,
-                const Box& place);
+/// Over one period of a plan.
+[[nodiscard]] Chart chart(const Figure& figure, const Motion& motion, const mechanics::Certificate& certificate);
 
 }  // namespace gyre::ground

@@ -30,6 +30,10 @@ std::string for_every_tone(const Say& say) {
   return out;
 }
 
+std::string variable(const char* name, const char* value) {
+  return "--" + std::string(name) + ":" + value + ";";
+}
+
 }  // namespace
 
 const Tone& carrier_tone(std::size_t index) {
@@ -40,12 +44,12 @@ const char* carrier_dash(std::size_t index) {
   return kDashes[index / kCarriers.size() % kDashes.size()];
 }
 
+std::string light_tones() {
+  return for_every_tone([](const Tone& tone) { return variable(tone.name, tone.light); });
+}
+
 std::string style_sheet() {
-  const auto variable = [](const char* name, const char* value) {
-    return "--" + std::string(name) + ":" + value + ";";
-  };
-  std::string out = ":root{color-scheme:light dark;";
-  out += for_every_tone([&](const Tone& tone) { return variable(tone.name, tone.light); });
+  std::string out = ":root{color-scheme:light dark;" + light_tones();
   out += "}\n@media (prefers-color-scheme:dark){:root{";
   out += for_every_tone([&](const Tone& tone) { return variable(tone.name, tone.dark); });
   out += "}}\n";

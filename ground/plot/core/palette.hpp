@@ -29,6 +29,9 @@ inline constexpr Tone kBad{"bad", "#c21f2b", "#ff7b72"};
 /// Of its lines, as in Stroke.
 [[nodiscard]] const char* carrier_dash(std::size_t index);
 
+/// Every tone as on light paper, as the declarations of a rule: for what is printed.
+[[nodiscard]] std::string light_tones();
+
 /// The style sheet: every tone as a class, by the paper the reader prefers.
 [[nodiscard]] std::string style_sheet();
 

@@ -162,7 +162,7 @@ double draw_charts(Svg& svg, const mechanics::Plan& plan, const Certificate& cer
     const std::size_t row = i / 2, column = i % 2;
     const double left = kMargin + static_cast<double>(column) * (width + kGap);
     const double row_top = top + static_cast<double>(row) * kChartHeight;
-    draw_chart(svg, all[i], motion, certificate,
+    draw_chart(svg, chart(all[i], motion, certificate),
                {left, row_top, left + width, row_top + kChartHeight - kBetweenCharts});
   }
   const std::size_t rows = (all.size() + 1) / 2;
@@ -175,7 +175,7 @@ std::string plot_svg(const std::string& mission_name, const mechanics::Plan& pla
   const Motion moves = motion(plan, certificate);
   Svg svg;
   double y = draw_header(svg, mission_name, plan, certificate);
-  const Frames views = frames(moves, {kMargin, y}, kInner);
+  const Frames views = frames(extents(moves), {kMargin, y}, kInner);
   draw_scene(svg, moves, views.above);
   draw_scene(svg, moves, views.side);
   y = draw_captions(svg, certificate, views.above.plot.bottom + kBelowFrame);

@@ -19,41 +19,6 @@ double norm(Point v) {
   return std::hypot(v.x, v.y);
 }
 
-void draw_axes(Svg& svg, const Frame& frame, const std::string& remark) {
-  const Box& plot = frame.plot;
-  svg.begin(kInk);
-  svg.words({plot.left, plot.top - 11.0}, frame.view.title, {kTitleFont, Anchor::kStart, true});
-  svg.end();
-  const auto across = ticks(frame.right.shown, 8);
-  const auto up = ticks(frame.up.shown, std::max(2, static_cast<int>(plot.height() / 40.0)));
-  svg.begin(kGrid);
-  for (const Tick& tick : across) {
-    const double x = frame.right(tick.figure);
-    svg.line({x, plot.top}, {x, plot.bottom}, {0.6});
-  }
-  for (const Tick& tick : up) {
-    const double y = frame.up(tick.figure);
-    svg.line({plot.left, y}, {plot.right, y}, {0.6});
-  }
-  svg.end();
-  svg.begin(kMuted);
-  for (const Tick& tick : across)
-    svg.words({frame.right(tick.figure), plot.bottom + 15.0}, tick.words, {kAxisFont, Anchor::kMiddle});
-  for (const Tick& tick : up) {
-    svg.words({plot.left - 6.0, frame.up(tick.figure) + 4.0}, shortened(tick.words, kAxisFont, 64.0),
-              {kAxisFont, Anchor::kEnd});
-  }
-  svg.words({plot.left + width_of(frame.view.title, kTitleFont) + 12.0, plot.top - 11.0}, remark, {kAxisFont});
-  svg.words({plot.right, plot.bottom + 30.0}, std::string(frame.view.right_name) + ", m", {kAxisFont, Anchor::kEnd});
-  svg.words({plot.right, plot.top - 11.0}, std::string(frame.view.up_name) + ", m", {kAxisFont, Anchor::kEnd});
-  if (frame.shows_ground) {
-    const double ground = frame.up(0.0);
-    svg.line({plot.left, ground}, {plot.right, ground}, {1.4});
-    svg.box({plot.left, ground, plot.right, plot.bottom}, 0.1);
-  }
-  svg.end();
-}
-
 /// Twice what the orbit encloses: nothing where it is seen from its edge.
 double enclosed(const std::vector<Point>& orbit) {
   double out = 0.0;
@@ -80,17 +45,6 @@ void draw_direction(Svg& svg, const std::vector<Point>& orbit, double size) {
               {tip.x - u.x + 0.8 * u.y, tip.y - u.y - 0.8 * u.x}},
              1.0);
   }
-}
-
-void draw_load(Svg& svg, const Motion& motion, const Frame& frame) {
-  std::vector<Point> corners;
-  for (const Eigen::Vector3d& corner : motion.load_w_m) corners.push_back(frame(corner));
-  std::vector<Point> outline = hull_of(corners);
-  svg.begin(kLoad);
-  svg.area(outline, 0.45);
-  outline.push_back(outline.front());
-  svg.path(outline, {1.4});
-  svg.end();
 }
 
 void draw_carrier(Svg& svg, const CarrierPath& path, std::size_t index, const Frame& frame) {
@@ -190,6 +144,52 @@ Labels taken(const Motion& motion, const Frame& frame) {
 
 }  // namespace
 
+void draw_frame(Svg& svg, const Frame& frame, const std::string& remark) {
+  const Box& plot = frame.plot;
+  svg.begin(kInk);
+  svg.words({plot.left, plot.top - 11.0}, frame.view.title, {kTitleFont, Anchor::kStart, true});
+  svg.end();
+  const auto across = ticks(frame.right.shown, 8);
+  const auto up = ticks(frame.up.shown, std::max(2, static_cast<int>(plot.height() / 40.0)));
+  svg.begin(kGrid);
+  for (const Tick& tick : across) {
+    const double x = frame.right(tick.figure);
+    svg.line({x, plot.top}, {x, plot.bottom}, {0.6});
+  }
+  for (const Tick& tick : up) {
+    const double y = frame.up(tick.figure);
+    svg.line({plot.left, y}, {plot.right, y}, {0.6});
+  }
+  svg.end();
+  svg.begin(kMuted);
+  for (const Tick& tick : across)
+    svg.words({frame.right(tick.figure), plot.bottom + 15.0}, tick.words, {kAxisFont, Anchor::kMiddle});
+  for (const Tick& tick : up) {
+    svg.words({plot.left - 6.0, frame.up(tick.figure) + 4.0}, shortened(tick.words, kAxisFont, 64.0),
+              {kAxisFont, Anchor::kEnd});
+  }
+  svg.words({plot.left + width_of(frame.view.title, kTitleFont) + 12.0, plot.top - 11.0}, remark, {kAxisFont});
+  svg.words({plot.right, plot.bottom + 30.0}, std::string(frame.view.right_name) + ", m", {kAxisFont, Anchor::kEnd});
+  svg.words({plot.right, plot.top - 11.0}, std::string(frame.view.up_name) + ", m", {kAxisFont, Anchor::kEnd});
+  if (frame.shows_ground) {
+    const double ground = frame.up(0.0);
+    svg.line({plot.left, ground}, {plot.right, ground}, {1.4});
+    svg.box({plot.left, ground, plot.right, plot.bottom}, 0.1);
+  }
+  svg.end();
+}
+
+void draw_load(Svg& svg, const std::vector<Eigen::Vector3d>& corners_w_m, const Frame& frame) {
+  std::vector<Point> corners;
+  for (const Eigen::Vector3d& corner : corners_w_m) corners.push_back(frame(corner));
+  std::vector<Point> outline = hull_of(corners);
+  svg.begin(kLoad);
+  svg.area(outline, 0.45);
+  outline.push_back(outline.front());
+  svg.path(outline, {1.4});
+  svg.end();
+}
+
 void draw_approach(Svg& svg, Point from, Point to, bool of_cables) {
   svg.begin(kInk);
   svg.line(from, to, {1.8, 1.0, of_cables ? "2 1.5" : ""});
@@ -208,13 +208,13 @@ void draw_scene(Svg& svg, const Motion& motion, const Frame& frame) {
   for (const auto* approach : {&motion.places, &motion.cables}) {
     if (*approach) approaches.push_back(**approach);
   }
-  draw_axes(svg, frame, approaches.empty() ? "" : "dotted: when closest");
+  draw_frame(svg, frame, approaches.empty() ? "" : "dotted: when closest");
   for (std::size_t i = 0; i < motion.carriers.size(); ++i) draw_orbit(svg, motion, i, frame);
   for (const Nearest& nearest : approaches) {
     draw_then(svg, nearest.first, motion, frame);
     draw_then(svg, nearest.second, motion, frame);
   }
-  draw_load(svg, motion, frame);
+  draw_load(svg, motion.load_w_m, frame);
   for (std::size_t i = 0; i < motion.carriers.size(); ++i) draw_carrier(svg, motion.carriers[i], i, frame);
   Labels labels = taken(motion, frame);
   for (const Nearest& nearest : approaches) {

@@ -12,20 +12,6 @@ constexpr double kLeastHeight = 190.0, kMostHeight = 410.0;
 constexpr double kRim = 30.0;                            // inside a frame, for labels
 constexpr double kPoint_m = 1e-6, kPointOfPlace = 1e-9;  // what extends less is a point
 
-Range extent(const Motion& motion, const Eigen::Vector3d& along) {
-  Range out;
-  out.include(motion.load_position_w_m.dot(along));
-  for (const Eigen::Vector3d& corner : motion.load_w_m) out.include(corner.dot(along));
-  for (const CarrierPath& path : motion.carriers) {
-    out.include(path.attachment_w_m.dot(along));
-    for (const Moment& moment : path.moments) {
-      const double place = moment.position_w_m.dot(along);
-      out.include({place - path.radius_m, place + path.radius_m});
-    }
-  }
-  return out;
-}
-
 /// The ground is in the picture where it is near: else it would make everything else small. Where the load's own place
 /// is not above it, altitudes count from elsewhere.
 Range with_ground(Range altitude) {
@@ -47,14 +33,39 @@ double cross(const Point& o, const Point& a, const Point& b) {
 
 }  // namespace
 
-Frames frames(const Motion& motion, Point top_left, double width) {
+void Extents::include(const Eigen::Vector3d& place_w_m, double radius_m) {
+  const auto widen = [radius_m](Range& range, double place) { range.include({place - radius_m, place + radius_m}); };
+  widen(x, place_w_m.x());
+  widen(y, place_w_m.y());
+  widen(z, place_w_m.z());
+}
+
+void Extents::include(const Extents& other) {
+  x.include(other.x);
+  y.include(other.y);
+  z.include(other.z);
+}
+
+Extents extents(const Motion& motion) {
+  Extents out;
+  out.include(motion.load_position_w_m);
+  for (const Eigen::Vector3d& corner : motion.load_w_m) out.include(corner);
+  for (const CarrierPath& path : motion.carriers) {
+    out.include(path.attachment_w_m);
+    for (const Moment& moment : path.moments) out.include(moment.position_w_m, path.radius_m);
+  }
+  return out;
+}
+
+Frames frames(const Extents& extents, Point top_left, double width) {
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
   const View above{"From above", "x", "y", x, y};
-  const Range across_x = extent(motion, x), across_y = extent(motion, y);
+  const Range& across_x = extents.x;
+  const Range& across_y = extents.y;
   const View side = across_x.span() >= across_y.span() ? View{"From the side, along +y", "x", "altitude", x, z}
                                                        : View{"From the side, along \u2212x", "y", "altitude", y, z};
   const Range across = across_x.span() >= across_y.span() ? across_x : across_y;
-  const Range altitude = with_ground(extent(motion, z));
+  const Range altitude = with_ground(extents.z);
 
   const double plot_width = 0.5 * (width - kGap) - kLeft;
   double wide = across.span(), high = std::max(across_y.span(), altitude.span());
@@ -73,7 +84,7 @@ Frames frames(const Motion& motion, Point top_left, double width) {
   };
   Frames out{frame(above, top_left.x, across_x, across_y),
              frame(side, top_left.x + kLeft + plot_width + kGap, across, altitude)};
-  out.side.shows_ground = extent(motion, z).min > 0.0 && out.side.up.shown.min < 0.0;
+  out.side.shows_ground = extents.z.min > 0.0 && out.side.up.shown.min < 0.0;
   return out;
 }
 

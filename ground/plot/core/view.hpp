@@ -39,8 +39,17 @@ struct Frames {
   Frame above, side;
 };
 
+/// What the views have to show, along the axes of W.
+struct Extents {
+  mechanics::Range x, y, z;
+
+  void include(const Eigen::Vector3d& place_w_m, double radius_m = 0.0);
+  void include(const Extents& other);
+};
+[[nodiscard]] Extents extents(const Motion& motion);
+
 /// Beside each other below `top_left`, as high as they have to be; around `plot` there is room for what axes say.
-[[nodiscard]] Frames frames(const Motion& motion, Point top_left, double width);
+[[nodiscard]] Frames frames(const Extents& extents, Point top_left, double width);
 
 /// The corners of the hull of points, in order.
 [[nodiscard]] std::vector<Point> hull_of(std::vector<Point> points);

@@ -1,6 +1,7 @@
 #pragma once
-// Hurts a flight on purpose, as a person at the page asks: its processes, which are this program's own, by signals; their
-// packets, their clocks and the load by the laboratory (common/protocol/disturbance.hpp), which they were started with.
+// Hurts a flight on purpose, as a person at the page asks: its processes, which are this program's own, by signals;
+// their packets, their clocks and the load by the laboratory (common/protocol/disturbance.hpp), which they were started
+// with.
 
 #include <set>
 #include <string>

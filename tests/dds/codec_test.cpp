@@ -26,9 +26,9 @@ using namespace protocol;  // NOLINT(google-build-using-namespace): the messages
 template <class Message>
 class EveryMessage : public testing::Test {};
 
-using Messages = testing::Types<Beacon, PlanOffer, HeldPlans, TimeRequest, TimeReply, AgentStatus, Setpoint,
-                                CarrierState, LoadState, Command, CommandReply, CoordinatorStatus, MissionText, Health,
-                                Disturbance>;
+using Messages =
+    testing::Types<Beacon, PlanOffer, HeldPlans, TimeRequest, TimeReply, AgentStatus, Setpoint, CarrierState, LoadState,
+                   Command, CommandReply, CoordinatorStatus, MissionText, Health, Disturbance>;
 TYPED_TEST_SUITE(EveryMessage, Messages);
 
 /// A message through the generated serialisation as well, as it crosses the wire.

@@ -8,6 +8,7 @@
 #include "ground/page/core/door.hpp"
 #include "ground/page/core/hurt_gauge.hpp"
 #include "ground/page/core/known_mission.hpp"
+#include "ground/page/core/utf8.hpp"
 #include "tests/ground/heard_swarm.hpp"
 
 namespace gyre::ground {
@@ -176,6 +177,34 @@ TEST_F(HurtGaugeTest, TheNextHurtBeginsAnew) {
   EXPECT_EQ(outcome().moved_max_m, 0.0);
   EXPECT_FALSE(outcome().calm_after);
   EXPECT_EQ(outcome().since, Duration::zero());
+}
+
+// --------------------------------------------------------------------------------------------------------- the words
+
+TEST(Utf8, WhatIsTextStaysAsItIs) {
+  for (const char* text : {"", "plain", "\x7f", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf", "\xee\x80\x80",
+                           "\xef\xbf\xbf", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf", "a\xe2\x82\xac z"}) {
+    EXPECT_EQ(utf8(text), text);
+  }
+  EXPECT_EQ(utf8(std::string_view("a\0b", 3)), std::string("a\0b", 3));
+}
+
+TEST(Utf8, WhatIsNoneIsAQuestionMarkForEachByte) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"\x80", "?"},       // follows nothing
+      {"\xc0\xaf", "??"},  // longer than it has to be
+      {"\xe0\x9f\xbf", "???"},
+      {"\xf0\x8f\xbf\xbf", "????"},
+      {"\xed\xa0\x80", "???"},       // half of a surrogate pair
+      {"\xf4\x90\x80\x80", "????"},  // beyond the last character
+      {"\xf5\x80\x80\x80", "????"},
+      {"\xff\xfe", "??"},
+      {"\xe2\x82", "??"},  // cut off
+      {"\xf0\x9f\x98", "???"},
+      {"\xc3(", "?("},  // followed by something else
+      {"\xe2\x82(", "\?\?("},
+  };
+  for (const auto& [bytes, text] : cases) EXPECT_EQ(utf8(bytes), text);
 }
 
 // ------------------------------------------------------------------------------------------------------- the mission

@@ -1,5 +1,6 @@
 // What somebody can do to the page's server who means no good, or is broken: waste his own connection.
 
+#include <fstream>
 #include <random>
 
 #include "tests/page/served.hpp"
@@ -34,8 +35,11 @@ class HostileTest : public PageServerTest {
     }
     return taken;
   }
-  /// Of this process, in bytes.
+  /// Of this process, in bytes; a sanitizer's own memory says nothing.
   static std::size_t resident() {
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+    return 0;
+#endif
     std::ifstream file("/proc/self/statm");
     std::size_t all = 0, here = 0;
     file >> all >> here;
@@ -151,7 +155,8 @@ TEST_F(HostileTest, AFewBytesDoNotBecomeMany) {
   std::string ranges = "Range: bytes=0-";
   while (ranges.size() < 7000) ranges += ",0-";
   const Reply ranged = ask(get("/", ranges + "\r\n"));
-  EXPECT_LT(ranged.body.size(), std::size_t{2} << 20) << ranged.status;
+  EXPECT_EQ(ranged.status, 416);
+  EXPECT_LT(ranged.body.size(), std::size_t{1} << 20);
   for (const char* encoding : {"gzip", "deflate", "br", "identity, gzip"}) {
     const Reply packed =
         ask(post("/api/check", std::string(1000, '\x1f'),

@@ -25,7 +25,7 @@ void Agent::on(LocalTime now, const protocol::CarrierState& state, Outputs& /*ou
   }
   // Silent while this agent was awake; after a stall of its own, what comes first is old (back_at_the_vehicle).
   const bool flies = flown_at_ && now - *flown_at_ <= options_.stall;
-  const bool was_silent = vehicle_ && now - vehicle_heard_ > options_.vehicle_timeout;
+  const bool was_silent = !vehicle_ || now - vehicle_heard_ > options_.vehicle_timeout;
   const bool another = vehicle_ && verdict == protocol::Incumbent::Verdict::kSucceeds;
   vehicle_ = state;
   vehicle_heard_ = now;

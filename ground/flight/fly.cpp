@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -68,7 +69,8 @@ int report_failure(const FlightFailure& failure, const Supervisor& supervisor, F
 int conclude(const Flight& flight, FlightDirectory& directory) {
   const std::optional<FlightReport> report = flight.report();
   if (!report) return say(program::kGood, "Ended as asked, before the motion had begun: nothing to judge.");
-  std::printf("%s", flight_table(*report).c_str());
+  const Verdict verdict = flight.by_hand().empty() ? Verdict::kShown : Verdict::kLeftOut;
+  std::printf("%s", flight_table(*report, verdict).c_str());
   for (const std::string& what : flight.by_hand()) std::printf("by hand: %s\n", what.c_str());
   const bool written = std::fflush(stdout) == 0;
   if (!flight.by_hand().empty()) {
@@ -166,6 +168,9 @@ int fly_certified(const FlyOptions& options, const mission::Mission& mission) {
 int fly(const FlyOptions& options) {
   const auto mission = program::read_mission(options.mission);
   if (!mission) return mission.error();
+  if (options.record && std::filesystem::exists(*options.record)) {
+    return say(program::kBadUsage, *options.record + " is there already: record into another file, or move it away");
+  }
   const mechanics::Certificate certificate = mechanics::certify(mission.value().plan);
   if (!certificate.admissible()) {
     std::printf(
@@ -187,7 +192,7 @@ program::Command fly_command() {
                           program::Bounds{0.1, 7.0 * 86400.0}},
                          {"--logs", &options->logs, "directory for one log per process; kept (else a temporary one)"},
                          {"--keep-logs", &options->keep_logs, "keep the logs of a good flight too"},
-                         {"--record", &options->record, "record all that is said into this file (gyre record)"},
+                         {"--record", &options->record, "record all that is said into this new file, as gyre record"},
                          {"--page", &options->page, "serve the page of the flight, and fly until ctrl-c"}}),
            {"The page", page_options(options->page_options)},
            program::network_options(options->network, "the first that is free")},

@@ -49,7 +49,7 @@ Result<protocol::Command> order_of(const std::string& json) {
       command.kind = protocol::CommandKind::kFreeze;
       return command;
     case page::Order::PACE:
-      if (!within(order.pace(), 1.0)) return Error{"pace: 0 (rest) to 1 (full motion)"};
+      if (!order.has_pace() || !within(order.pace(), 1.0)) return Error{"pace: 0 (rest) to 1 (full motion)"};
       command.kind = protocol::CommandKind::kPace;
       command.pace = order.pace();
       return command;

@@ -67,7 +67,8 @@ class FileSource final : public McapSource {
 
 Result<RecordingFile> RecordingFile::create(const std::string& path, Existing existing) {
   constexpr mode_t kForAllToRead = 0644;
-  const int flags = O_WRONLY | O_CREAT | O_CLOEXEC | (existing == Existing::kRefuse ? O_EXCL : 0);
+  // Without waiting for somebody to read: what is no file is refused below.
+  const int flags = O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK | (existing == Existing::kRefuse ? O_EXCL : 0);
   const int descriptor = ::open(path.c_str(), flags, kForAllToRead);
   if (descriptor < 0) return failure(path, errno);
   RecordingFile file(descriptor, path);

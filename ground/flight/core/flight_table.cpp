@@ -66,11 +66,12 @@ FlightWords flight_words(const FlightReport& report) {
           timing_line(report.timing)};
 }
 
-std::string flight_table(const FlightReport& report) {
+std::string flight_table(const FlightReport& report, Verdict verdict) {
   const FlightWords words = flight_words(report);
   std::string out = report.mission + text(": flown for %.1f s\n\n", report.flown_s) + aligned(words.rows) + "\n";
   out += "  load       " + words.load + "\n";
   out += "  timing     " + words.timing + "\n";
+  if (verdict == Verdict::kLeftOut) return out + "\n";
   if (report.good()) return out + "\nGOOD: the flight stayed inside its certificate.\n";
   out += "\nOUTSIDE its certificate:\n";
   for (const std::string& violation : report.violations) out += "  - " + violation + "\n";

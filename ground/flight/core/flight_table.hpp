@@ -16,7 +16,8 @@ struct FlightWords {
 [[nodiscard]] FlightWords flight_words(const FlightReport& report);
 
 /// Two lines for each carrier, certified above flown, a `!` behind what is outside; the load; the timing; the verdict,
-/// and every figure outside in words.
-[[nodiscard]] std::string flight_table(const FlightReport& report);
+/// and every figure outside in words. Without the verdict: for flights in which somebody had a hand.
+enum class Verdict { kShown, kLeftOut };
+[[nodiscard]] std::string flight_table(const FlightReport& report, Verdict verdict = Verdict::kShown);
 
 }  // namespace gyre::ground

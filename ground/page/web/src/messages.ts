@@ -148,7 +148,7 @@ export type Happening = Of<typeof Happening>;
 
 export const Order = message('Order', {
   kind: choice('Kind', ['NONE', 'ENGAGE', 'RELEASE', 'FREEZE', 'RETUNE', 'PACE']),
-  pace: real,
+  pace: optional(real),
   phase_deg: optional(real),
   mission: text,
 });

@@ -54,7 +54,7 @@ class Incumbent {
 
   [[nodiscard]] bool silent(LocalTime now) const { return heard_.silent(now); }
   [[nodiscard]] std::optional<LocalTime> last() const { return heard_.last(); }  ///< word of who is believed
-  [[nodiscard]] std::optional<std::uint64_t> who() const { return who_; }  ///< absent: nobody was ever heard
+  [[nodiscard]] std::optional<std::uint64_t> who() const { return who_; }        ///< absent: nobody was ever heard
   /// Who was heard lately beside the one that is believed.
   [[nodiscard]] std::optional<std::uint64_t> rival(LocalTime now) const {
     if (!rival_ || now - rival_->last > kGone || silent(now)) return std::nullopt;

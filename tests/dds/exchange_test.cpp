@@ -65,9 +65,9 @@ std::optional<Message> wait_for(dds::Inbox<Message>& inbox, Done done, Again aga
 template <class Message>
 class EveryMessage : public testing::Test {};
 
-using Messages = testing::Types<Beacon, PlanOffer, HeldPlans, TimeRequest, TimeReply, AgentStatus, Setpoint,
-                                CarrierState, LoadState, Command, CommandReply, CoordinatorStatus, MissionText, Health,
-                                Disturbance>;
+using Messages =
+    testing::Types<Beacon, PlanOffer, HeldPlans, TimeRequest, TimeReply, AgentStatus, Setpoint, CarrierState, LoadState,
+                   Command, CommandReply, CoordinatorStatus, MissionText, Health, Disturbance>;
 TYPED_TEST_SUITE(EveryMessage, Messages);
 
 TYPED_TEST(EveryMessage, ArrivesBitForBit) {

@@ -42,7 +42,8 @@ Result<Account> read_flight(const std::string& path, const McapSource& source,
   FileFacts file;
   file.path = path;
   file.mission_given = !mission && given;
-  auto digest = std::make_unique<FlightDigest>(mission ? std::move(mission) : given);
+  if (!mission) mission = given;
+  auto digest = std::make_unique<FlightDigest>(std::move(mission));
   while (const auto heard = stream.next()) {
     ++file.messages;
     digest->see(heard->arrived, heard->message);

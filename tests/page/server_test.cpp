@@ -283,16 +283,18 @@ TEST_F(ServerTest, EndsWhateverItsConnectionsDo) {
     ASSERT_TRUE(watcher.reads("x" + std::to_string(i) + "\n"));
     watcher.forget();
   }
-  auto waiting = std::async(std::launch::async, [&] { return ask(post("/api/order", kEngage)); });
-  auto taken = std::async(std::launch::async, [&] { return ask(post("/api/order", kEngage)); });
+  Connection taken = connect(), waiting = connect();
+  taken.send(post("/api/order", kEngage));
   const PageRequest held = next_request();  // its promise outlives the server
+  waiting.send(post("/api/order", kEngage));
   server_.reset();
   EXPECT_TRUE(watcher.reads_the_end());
   EXPECT_TRUE(idle.reads_the_end());
   EXPECT_TRUE(slow.reads_the_end());
   EXPECT_TRUE(kept.reads_the_end());
-  for (auto* order : {&waiting, &taken}) {
-    const Reply reply = order->get();
+  for (Connection* order : {&taken, &waiting}) {
+    EXPECT_TRUE(order->reads_the_end());
+    const Reply reply = reply_of(order->got());
     if (reply.status == 0) continue;  // it was not read any more
     EXPECT_EQ(reply.status, 503);
     EXPECT_EQ(words(reply), "the server ends");

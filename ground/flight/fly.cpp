@@ -94,6 +94,7 @@ Result<std::unique_ptr<Page>> open_page(const FlyOptions& options, const FlightN
   PageOwner owner;
   owner.domain = net.domain;
   owner.owns_processes = true;
+  owner.mission_file = std::filesystem::path(options.mission).filename().string();  // not where it lies here
   auto page = Page::open(options.page_options, owner, net.node.get(), flight.view());
   if (!page) return page;
   flight.show_at(*page.value(), hurting);

@@ -21,7 +21,7 @@ struct PageOwner {
   int domain = 0;
   bool takes_orders = true;     ///< false: a recording is shown
   bool owns_processes = false;  ///< they can be hurt
-  std::string mission_file;
+  std::string mission_file;     ///< what is flown, by its name; empty: unknown
 };
 
 /// A process of the server's own.

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "agent/core/agent.hpp"
+#include "agent/journal.hpp"
 #include "agent/vehicle/vehicle_options.hpp"
 #include "common/base/ensure.hpp"
 #include "common/base/interrupts.hpp"
@@ -10,6 +11,7 @@
 #include "common/base/text.hpp"
 #include "common/dds/health_reporter.hpp"
 #include "common/dds/inbox.hpp"
+#include "common/program/journal.hpp"
 #include "common/program/laboratory.hpp"
 #include "common/program/program.hpp"
 #include "common/program/worker.hpp"
@@ -28,11 +30,13 @@ namespace protocol = gyre::protocol;
 /// The wire side: what the agent hears goes into the inbox, what it says goes out through the writers.
 class Wire {
  public:
-  Wire(std::unique_ptr<gyre::dds::Node> opened, gyre::CarrierId carrier, bool laboratory)
+  Wire(std::unique_ptr<gyre::dds::Node> opened, const gyre::agent::AgentOptions& options, bool laboratory)
       : node_(std::move(opened)),
-        health_(*node_, "agent " + std::to_string(carrier)),
-        laboratory_(*node_, "agent " + std::to_string(carrier), laboratory) {
+        health_(*node_, name(options.carrier)),
+        journal_(*node_, name(options.carrier), gyre::agent::beginning(gyre::dds::now(), options)),
+        laboratory_(*node_, name(options.carrier), laboratory) {
     gyre::dds::Node& node = *node_;
+    const gyre::CarrierId carrier = options.carrier;
     setpoint_ = node.writer<protocol::Setpoint>(carrier);
     status_ = node.writer<protocol::AgentStatus>(carrier);
     time_request_ = node.writer<protocol::TimeRequest>(carrier);
@@ -58,19 +62,28 @@ class Wire {
     if (out.status) status_.write(*out.status);
   }
 
-  void report_health(const Agent& agent) {
+  void keep(LocalTime now, const Event& event, const Outputs& out) {
+    journal_.add([&] { return gyre::agent::entry_of(now, event, out); });
+  }
+
+  /// What is for people: how it is, and what it was told.
+  void report(const Agent& agent) {
     const LocalTime now = gyre::dds::now();
     protocol::DropCounts dropped = agent.dropped();
     dropped.nonsense += laboratory_.nonsense();
     health_.step(now, agent.complaint(now), dropped, inbox_.dropped(), inbox_.late());
+    journal_.send(now);
   }
 
   void suffer() { laboratory_.perform(); }
 
  private:
+  static std::string name(gyre::CarrierId carrier) { return "agent " + std::to_string(carrier); }
+
   gyre::dds::Inbox<Event> inbox_;  // outlives the node, whose handlers fill it
   std::unique_ptr<gyre::dds::Node> node_;
   gyre::dds::HealthReporter health_;
+  program::Journal journal_;
   program::Laboratory laboratory_;
   gyre::dds::Writer<protocol::Setpoint> setpoint_;
   gyre::dds::Writer<protocol::AgentStatus> status_;
@@ -86,13 +99,15 @@ int run(gyre::agent::AgentOptions options, const program::Options& common) {
   Agent agent(options);
   gyre::log_info(
       gyre::text("carrier %u: waiting for a coordinator on domain %d", options.carrier, node.value()->domain()));
-  Wire wire(std::move(node).value(), options.carrier, common.laboratory);
+  Wire wire(std::move(node).value(), options, common.laboratory);
 
   program::Worker<PlanQuestion, PlanVerdict> judge(gyre::agent::judge);
   LocalTime next_tick = gyre::dds::now();
   const auto step = [&](const Event& event) {
-    const Outputs out = agent.step(gyre::dds::now(), event);
+    const LocalTime now = gyre::dds::now();
+    const Outputs out = agent.step(now, event);
     wire.send(out);
+    wire.keep(now, event, out);
     gyre::log(out.notices);
     if (out.question) GYRE_ENSURE(judge.begin(*out.question), "an agent asks one question at a time");
     next_tick = out.next_tick;
@@ -100,9 +115,8 @@ int run(gyre::agent::AgentOptions options, const program::Options& common) {
   while (gyre::take_interrupts().total() == 0) {
     for (const Event& event : wire.sleep_until(next_tick)) step(event);
     if (const auto verdict = judge.finished()) step(*verdict);
-    agent.count_undecodable(wire.undecodable());
-    step(gyre::agent::Tick{});
-    wire.report_health(agent);
+    step(gyre::agent::Tick{wire.undecodable()});
+    wire.report(agent);
     wire.suffer();
   }
   gyre::log_info(gyre::text("carrier %u: ended on request", options.carrier));

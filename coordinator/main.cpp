@@ -11,10 +11,13 @@
 #include "common/dds/inbox.hpp"
 #include "common/mechanics/certificate.hpp"
 #include "common/mission/mission.hpp"
+#include "common/program/journal.hpp"
 #include "common/program/laboratory.hpp"
 #include "common/program/mission_argument.hpp"
 #include "common/program/program.hpp"
 #include "coordinator/core/coordinator.hpp"
+#include "coordinator/journal.hpp"
+#include "coordinator/judged_job.hpp"
 #include "coordinator/retune_worker.hpp"
 
 namespace {
@@ -27,33 +30,17 @@ using gyre::coordinator::Outputs;
 namespace program = gyre::program;
 namespace protocol = gyre::protocol;
 
-gyre::coordinator::Job job_of(const gyre::mission::Mission& mission, const gyre::mechanics::Certificate& certificate) {
-  gyre::coordinator::Job job;
-  job.name = mission.name;
-  job.plan = mission.plan;
-  job.mission_text = gyre::mission::to_text(mission);
-  job.swings = certificate.swings;
-  if (mission.transition_duration_s) job.transition = gyre::from_seconds(*mission.transition_duration_s);
-  job.silence = mission.silence;
-  return job;
-}
-
-/// A mission that came over the wire is read and judged like one from a file.
-gyre::Result<gyre::coordinator::Job> judged(const std::string& text) {
-  const auto mission = gyre::mission::parse_mission(text, "mission");
-  if (!mission) return mission.error();
-  const gyre::mechanics::Certificate certificate = gyre::mechanics::certify(mission.value().plan);
-  if (!certificate.admissible()) return gyre::Error{"refused: " + certificate.reasons.front().text};
-  return job_of(mission.value(), certificate);
-}
-
 constexpr gyre::Duration kEvidencePeriod = std::chrono::milliseconds(18);
 
 /// The wire side: what the coordinator hears goes into the inbox, what it says goes out through the writers.
 class Wire {
  public:
-  Wire(std::unique_ptr<gyre::dds::Node> opened, const gyre::mechanics::Plan& plan, bool laboratory)
-      : node_(std::move(opened)), health_(*node_, "coordinator"), laboratory_(*node_, "coordinator", laboratory) {
+  Wire(std::unique_ptr<gyre::dds::Node> opened, const gyre::mechanics::Plan& plan,
+       const protocol::JournalEntry& beginning, bool laboratory)
+      : node_(std::move(opened)),
+        health_(*node_, kName),
+        journal_(*node_, kName, beginning),
+        laboratory_(*node_, kName, laboratory) {
     gyre::dds::Node& node = *node_;
     beacon_ = node.writer<protocol::Beacon>();
     replies_ = node.writer<protocol::CommandReply>();
@@ -102,19 +89,28 @@ class Wire {
     for (const protocol::CommandReply& reply : out.replies) replies_.write(reply);
   }
 
-  void report_health(const Coordinator& coordinator) {
+  void keep(LocalTime now, const Event& event, const Outputs& out) {
+    journal_.add([&] { return gyre::coordinator::entry_of(now, event, out); });
+  }
+
+  /// What is for people: how it is, and what it was told.
+  void report(const Coordinator& coordinator) {
     const LocalTime now = gyre::dds::now();
     protocol::DropCounts dropped = coordinator.dropped();
     dropped.nonsense += laboratory_.nonsense();
     health_.step(now, coordinator.complaint(now), dropped, inbox_.dropped(), inbox_.late());
+    journal_.send(now);
   }
 
   void suffer() { laboratory_.perform(); }
 
  private:
+  static constexpr const char* kName = "coordinator";
+
   gyre::dds::Inbox<Event> inbox_;  // outlives the node, whose handlers fill it
   std::unique_ptr<gyre::dds::Node> node_;
   gyre::dds::HealthReporter health_;
+  program::Journal journal_;
   program::Laboratory laboratory_;
   gyre::dds::Writer<protocol::Beacon> beacon_;
   gyre::dds::Writer<protocol::CommandReply> replies_;
@@ -125,12 +121,14 @@ class Wire {
 };
 
 Outcome conduct(Coordinator& coordinator, Wire& wire) {
-  gyre::coordinator::RetuneWorker retunes(judged);
+  gyre::coordinator::RetuneWorker retunes(gyre::coordinator::judged_job);
   LocalTime next_tick = gyre::dds::now();
   std::optional<Outcome> finished;
   const auto step = [&](const Event& event) {
-    const Outputs out = coordinator.step(gyre::dds::now(), event);
+    const LocalTime now = gyre::dds::now();
+    const Outputs out = coordinator.step(now, event);
     wire.send(out);
+    wire.keep(now, event, out);
     gyre::log(out.notices);
     next_tick = out.next_tick;
     if (out.finished) finished = out.finished;
@@ -144,7 +142,7 @@ Outcome conduct(Coordinator& coordinator, Wire& wire) {
     for (const Event& event : wire.sleep_until(next_tick)) hear(event);
     if (const auto retune = retunes.finished()) step(*retune);
     step(gyre::coordinator::Tick{});
-    wire.report_health(coordinator);
+    wire.report(coordinator);
     wire.suffer();
     const gyre::Interrupts asked = gyre::take_interrupts();
     // A service that is restarted or moved: the agents fly on, to the end of their lease, and whoever starts next
@@ -174,8 +172,10 @@ int run(const std::string& path, const program::Options& options, bool engage) {
   coordinator_options.nonce = std::random_device{}();
   coordinator_options.engage_when_ready = engage;
 
-  Coordinator coordinator(job_of(mission.value(), certificate), coordinator_options);
-  Wire wire(std::move(node).value(), mission.value().plan, options.laboratory);
+  const gyre::coordinator::Job job = gyre::coordinator::job_of(mission.value(), certificate);
+  Coordinator coordinator(job, coordinator_options);
+  Wire wire(std::move(node).value(), mission.value().plan,
+            gyre::coordinator::beginning(gyre::dds::now(), job, coordinator_options), options.laboratory);
   const Outcome outcome = conduct(coordinator, wire);
   gyre::log(outcome.clean ? gyre::Notice::Level::kInfo : gyre::Notice::Level::kError, outcome.text);
   return outcome.clean ? program::kGood : program::kFailed;

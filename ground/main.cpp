@@ -7,7 +7,7 @@
 #include "ground/page/serve.hpp"
 #include "ground/plot/plot.hpp"
 #include "ground/recording/record.hpp"
-#include "ground/recording/replay.hpp"
+#include "ground/replay/replay.hpp"
 #include "ground/report/report.hpp"
 #include "ground/swarm/health.hpp"
 #include "ground/swarm/orders.hpp"

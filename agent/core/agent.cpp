@@ -62,7 +62,8 @@ std::optional<SwarmTime> Agent::swarm_time(LocalTime now) const {
   return clock_.at(now);
 }
 
-void Agent::on(LocalTime now, const Tick& /*tick*/, Outputs& out) {
+void Agent::on(LocalTime now, const Tick& tick, Outputs& out) {
+  undecodable_ = tick.undecodable;
   if (now < next_tick_) return;
   // A stall is not made up for: the next tick is one period from now, not a burst of the missed ones.
   const bool hurries = !clock_.synchronised() && !coordinator_.silent(now);

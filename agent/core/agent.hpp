@@ -66,7 +66,9 @@ struct AgentOptions {
   protocol::TimekeeperOptions timekeeper;
 };
 
-struct Tick {};
+struct Tick {
+  std::uint64_t undecodable = 0;  ///< samples that never reached the core, so that all that is dropped is counted here
+};
 struct TimeReplyArrived {
   protocol::TimeReply reply;
   LocalTime arrived{};
@@ -90,8 +92,6 @@ class Agent {
 
   Outputs step(LocalTime now, const Event& event);
 
-  /// Samples that never reached the core, so that all that is dropped is counted in one place.
-  void count_undecodable(std::uint64_t total) { undecodable_ = total; }
   [[nodiscard]] const protocol::DropCounts& dropped() const { return dropped_; }
   [[nodiscard]] const protocol::Course& course() const { return course_; }  ///< what it flies
   /// What keeps it from its work: nobody to follow, a clock beyond the plan's budget, a vehicle that went silent.

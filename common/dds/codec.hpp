@@ -36,6 +36,7 @@ template <> struct Wire<protocol::CoordinatorStatus> { using Type = fast::idl::C
 template <> struct Wire<protocol::MissionText>  { using Type = fast::idl::MissionText;     using Support = fast::idl::MissionTextPubSubType; };
 template <> struct Wire<protocol::Health>       { using Type = fast::idl::Health;          using Support = fast::idl::HealthPubSubType; };
 template <> struct Wire<protocol::Disturbance>  { using Type = fast::idl::Disturbance;     using Support = fast::idl::DisturbancePubSubType; };
+template <> struct Wire<protocol::JournalPiece> { using Type = fast::idl::JournalPiece;    using Support = fast::idl::JournalPiecePubSubType; };
 // clang-format on
 
 [[nodiscard]] std::optional<fast::idl::Beacon> encode(const protocol::Beacon& message);
@@ -53,6 +54,7 @@ template <> struct Wire<protocol::Disturbance>  { using Type = fast::idl::Distur
 [[nodiscard]] std::optional<fast::idl::MissionText> encode(const protocol::MissionText& message);
 [[nodiscard]] std::optional<fast::idl::Health> encode(const protocol::Health& message);
 [[nodiscard]] std::optional<fast::idl::Disturbance> encode(const protocol::Disturbance& message);
+[[nodiscard]] std::optional<fast::idl::JournalPiece> encode(const protocol::JournalPiece& message);
 
 [[nodiscard]] std::optional<protocol::Beacon> decode(const fast::idl::Beacon& wire);
 [[nodiscard]] std::optional<protocol::PlanOffer> decode(const fast::idl::PlanOffer& wire);
@@ -69,6 +71,7 @@ template <> struct Wire<protocol::Disturbance>  { using Type = fast::idl::Distur
 [[nodiscard]] std::optional<protocol::MissionText> decode(const fast::idl::MissionText& wire);
 [[nodiscard]] std::optional<protocol::Health> decode(const fast::idl::Health& wire);
 [[nodiscard]] std::optional<protocol::Disturbance> decode(const fast::idl::Disturbance& wire);
+[[nodiscard]] std::optional<protocol::JournalPiece> decode(const fast::idl::JournalPiece& wire);
 
 /// The longest beginning of a UTF-8 text that fits into `bytes`, holds no NUL and cuts no character in two.
 [[nodiscard]] std::string fitting_text(const std::string& text, std::size_t bytes);

@@ -268,6 +268,7 @@ GYRE_CARRY(protocol::CoordinatorStatus)
 GYRE_CARRY(protocol::MissionText)
 GYRE_CARRY(protocol::Health)
 GYRE_CARRY(protocol::Disturbance)
+GYRE_CARRY(protocol::JournalPiece)
 #undef GYRE_CARRY
 
 }  // namespace gyre::dds

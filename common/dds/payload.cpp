@@ -52,6 +52,7 @@ GYRE_PAYLOAD(protocol::CoordinatorStatus)
 GYRE_PAYLOAD(protocol::MissionText)
 GYRE_PAYLOAD(protocol::Health)
 GYRE_PAYLOAD(protocol::Disturbance)
+GYRE_PAYLOAD(protocol::JournalPiece)
 #undef GYRE_PAYLOAD
 
 }  // namespace gyre::dds

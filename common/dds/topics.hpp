@@ -18,6 +18,7 @@ enum class Delivery {
   kNewest,    ///< best effort, keep last 1: the next one makes up for a lost one
   kRetained,  ///< reliable, keep last 1, transient local: a late joiner gets the newest too
   kEach,      ///< reliable, volatile: every one, for whoever listens when it is sent
+  kStream,    ///< reliable, volatile: every one in a stream of them, behind a link that loses most packets, too
   kFromMany,  ///< best effort, keep last 1 at each of many writers on one topic; readers have room for all of them
 };
 
@@ -48,6 +49,7 @@ template <> inline constexpr Topic kTopic<protocol::CoordinatorStatus> {"coordin
 template <> inline constexpr Topic kTopic<protocol::MissionText>  {"mission",       "gyre_msgs::msg::dds_::MissionText_",     false, Delivery::kRetained};
 template <> inline constexpr Topic kTopic<protocol::Health>       {"health",        "gyre_msgs::msg::dds_::Health_",          false, Delivery::kFromMany};
 template <> inline constexpr Topic kTopic<protocol::Disturbance>  {"laboratory",    "gyre_msgs::msg::dds_::Disturbance_",     false, Delivery::kEach};
+template <> inline constexpr Topic kTopic<protocol::JournalPiece> {"journal",       "gyre_msgs::msg::dds_::JournalPiece_",    false, Delivery::kStream};
 // clang-format on
 
 /// All that have a topic: what is in here is recorded, too.
@@ -55,7 +57,7 @@ using EveryMessage =
     std::tuple<protocol::Beacon, protocol::PlanOffer, protocol::HeldPlans, protocol::TimeRequest, protocol::TimeReply,
                protocol::AgentStatus, protocol::Setpoint, protocol::CarrierState, protocol::LoadState,
                protocol::Command, protocol::CommandReply, protocol::CoordinatorStatus, protocol::MissionText,
-               protocol::Health, protocol::Disturbance>;
+               protocol::Health, protocol::Disturbance, protocol::JournalPiece>;
 
 [[nodiscard]] constexpr bool reliable(Delivery delivery) {
   return delivery != Delivery::kNewest && delivery != Delivery::kFromMany;
@@ -63,6 +65,7 @@ using EveryMessage =
 
 /// How many samples a writer keeps to send again.
 [[nodiscard]] constexpr int writer_depth(Delivery delivery) {
+  if (delivery == Delivery::kStream) return 256;  // five seconds of an agent's journal
   return delivery == Delivery::kEach ? 16 : 1;
 }
 

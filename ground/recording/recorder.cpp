@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <utility>
+#include <variant>
 
 #include "common/base/log.hpp"
+#include "common/base/version.hpp"
 #include "common/dds/clock.hpp"
-#include "common/dds/payload.hpp"
 
 namespace gyre::ground {
 namespace {
@@ -21,18 +22,13 @@ std::uint64_t memory_of(const dds::RecordedSample& sample) {
   return sizeof(sample) + sample.payload.size() + kAround;
 }
 
-template <class Message>
-bool is_a(const dds::RecordedSample& sample) {
-  return sample.topic->type == dds::kTopic<Message>.type;
-}
-
 }  // namespace
 
 Recorder::Recorder(RecordingFile file, const RecordingBegin& begin, std::map<std::string, std::string> about,
                    std::optional<mission::Mission> mission)
     : file_(std::move(file)),
       begin_(begin),
-      recording_(GYRE_VERSION, std::move(about)),
+      recording_(version(), std::move(about)),
       mission_(std::move(mission)),
       thread_([this] { run(); }) {}
 
@@ -108,29 +104,27 @@ void Recorder::take(dds::RecordedSample sample) {
 }
 
 void Recorder::look(const dds::RecordedSample& sample) {
-  const auto step = [&](auto message) {
-    if (message) view_.step(sample.arrived, std::move(*message));
-  };
-  if (is_a<protocol::CarrierState>(sample)) {
-    step(dds::decode_payload<protocol::CarrierState>(sample.payload));
-  } else if (is_a<protocol::LoadState>(sample)) {
-    step(dds::decode_payload<protocol::LoadState>(sample.payload));
-  } else if (is_a<protocol::Beacon>(sample)) {
-    step(dds::decode_payload<protocol::Beacon>(sample.payload));
-  } else if (is_a<protocol::HeldPlans>(sample)) {
-    step(dds::decode_payload<protocol::HeldPlans>(sample.payload));
-    next_orbits_ns_ = 0;
-  } else if (is_a<protocol::CoordinatorStatus>(sample)) {
-    step(dds::decode_payload<protocol::CoordinatorStatus>(sample.payload));
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (view_.coordinator())
-      carriers_.insert(view_.coordinator()->carriers.begin(), view_.coordinator()->carriers.end());
-  } else if (is_a<protocol::MissionText>(sample)) {
-    step(dds::decode_payload<protocol::MissionText>(sample.payload));
-    if (!view_.mission() || view_.mission()->text == mission_text_) return;
-    mission_text_ = view_.mission()->text;
-    if (auto told = mission::parse_mission(mission_text_, "the mission in force")) mission_ = std::move(told).value();
+  const auto [known, added] = decoders_.emplace(sample.topic, nullptr);
+  if (added) {
+    if (const auto type = type_of_wire_name(sample.topic->type))
+      known->second = MessageDecoders<SceneMessage>::find(*type);
   }
+  if (known->second == nullptr) return;
+  auto message = known->second(sample.payload);
+  if (!message) return;
+  std::visit([&](auto& told) { view_.step(sample.arrived, std::move(told)); }, *message);
+  if (std::holds_alternative<protocol::HeldPlans>(*message)) next_orbits_ns_ = 0;
+  if (std::holds_alternative<protocol::CoordinatorStatus>(*message) && view_.coordinator()) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    carriers_.insert(view_.coordinator()->carriers.begin(), view_.coordinator()->carriers.end());
+  }
+  if (std::holds_alternative<protocol::MissionText>(*message)) learn_mission();
+}
+
+void Recorder::learn_mission() {
+  if (!view_.mission() || view_.mission()->text == mission_text_) return;
+  mission_text_ = view_.mission()->text;
+  if (auto told = mission::parse_mission(mission_text_, "the mission in force")) mission_ = std::move(told).value();
 }
 
 void Recorder::show(std::uint64_t now_ns) {

@@ -7,16 +7,20 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
 #include <string>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include "common/dds/recorded_sample.hpp"
 #include "common/mission/mission.hpp"
 #include "ground/recording/core/recording.hpp"
+#include "ground/recording/message_decoder.hpp"
 #include "ground/recording/recording_file.hpp"
 
 namespace gyre::ground {
@@ -50,9 +54,14 @@ class Recorder {
   [[nodiscard]] End finish();
 
  private:
+  /// What a scene is made of; the rest is not decoded.
+  using SceneMessage = std::variant<protocol::CarrierState, protocol::LoadState, protocol::Beacon, protocol::HeldPlans,
+                                    protocol::CoordinatorStatus, protocol::MissionText>;
+
   void run();
   void take(dds::RecordedSample sample);
   void look(const dds::RecordedSample& sample);
+  void learn_mission();
   void show(std::uint64_t log_ns);
   void write_chunk();
   /// Whether the disk took it.
@@ -63,6 +72,7 @@ class Recorder {
   RecordingFile file_;
   const RecordingBegin begin_;
   Recording recording_;
+  std::map<std::shared_ptr<const dds::RecordedTopic>, MessageDecoder<SceneMessage>> decoders_;
   SwarmView view_;
   std::optional<mission::Mission> mission_;
   std::string mission_text_;

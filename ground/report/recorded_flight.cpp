@@ -2,20 +2,23 @@
 
 #include <memory>
 #include <utility>
+#include <variant>
 
-#include "ground/recording/swarm_stream.hpp"
+#include "ground/recording/message_stream.hpp"
 
 namespace gyre::ground {
 namespace {
 
 /// The first that the swarm told. The digest has to know it from the first message on, and it may come late.
 std::optional<mission::Mission> told_mission(const McapSource& source) {
-  auto stream = SwarmStream::open(source);
-  if (!stream) return std::nullopt;
-  SwarmStream swarm = std::move(stream).value();
-  while (const auto text = swarm.next_mission()) {
-    if (text->text.empty()) continue;
-    auto mission = mission::parse_mission(text->text, "the recording's mission");
+  using Missions = MessageStream<std::variant<protocol::MissionText>>;
+  auto opened = Missions::open(source);
+  if (!opened) return std::nullopt;
+  Missions missions = std::move(opened).value();
+  while (const auto told = missions.next()) {
+    const std::string& text = std::get<protocol::MissionText>(told->message).text;
+    if (text.empty()) continue;
+    auto mission = mission::parse_mission(text, "the recording's mission");
     if (mission) return std::move(mission).value();
   }
   return std::nullopt;

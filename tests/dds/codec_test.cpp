@@ -28,7 +28,7 @@ class EveryMessage : public testing::Test {};
 
 using Messages =
     testing::Types<Beacon, PlanOffer, HeldPlans, TimeRequest, TimeReply, AgentStatus, Setpoint, CarrierState, LoadState,
-                   Command, CommandReply, CoordinatorStatus, MissionText, Health, Disturbance>;
+                   Command, CommandReply, CoordinatorStatus, MissionText, Health, Disturbance, JournalPiece>;
 TYPED_TEST_SUITE(EveryMessage, Messages);
 
 /// A message through the generated serialisation as well, as it crosses the wire.

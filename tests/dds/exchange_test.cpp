@@ -67,7 +67,7 @@ class EveryMessage : public testing::Test {};
 
 using Messages =
     testing::Types<Beacon, PlanOffer, HeldPlans, TimeRequest, TimeReply, AgentStatus, Setpoint, CarrierState, LoadState,
-                   Command, CommandReply, CoordinatorStatus, MissionText, Health, Disturbance>;
+                   Command, CommandReply, CoordinatorStatus, MissionText, Health, Disturbance, JournalPiece>;
 TYPED_TEST_SUITE(EveryMessage, Messages);
 
 TYPED_TEST(EveryMessage, ArrivesBitForBit) {

@@ -1,5 +1,4 @@
-// Every field of every message, visited in order: once to fill it at random, once to read it back bit by bit. The
-// structured bindings do not compile when a message gains a field that is not listed here.
+// Every field of every message, visited in order: once to fill it at random, once to read it back bit by bit.
 
 #include "tests/dds/random_messages.hpp"
 
@@ -12,52 +11,20 @@
 #include <type_traits>
 #include <vector>
 
+#include "common/protocol/fields.hpp"
+
 namespace gyre::tests {
 namespace {
 
-template <class Visitor, class... Fields>
-void visit_all(Visitor& visitor, Fields&... fields) {
-  (visitor(fields), ...);
+template <class Message, class Visitor>
+void each_field(Message& message, Visitor& visitor) {
+  protocol::for_each_field<Message>([&](const auto& field) { visitor(message.*field.member); });
 }
 
-// clang-format off
-template <class V> void each_field(protocol::PlanNumber& m, V& v) { auto& [a, b] = m; visit_all(v, a, b); }
-template <class V> void each_field(protocol::TimedPlan& m, V& v) { auto& [a, b] = m; visit_all(v, a, b); }
-template <class V> void each_field(protocol::Transition& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
-template <class V> void each_field(protocol::PlanMoment& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
-template <class V> void each_field(protocol::Ramp& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
-template <class V> void each_field(protocol::Pace& m, V& v) { auto& [a] = m; visit_all(v, a); }
-template <class V> void each_field(protocol::Wish& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
-template <class V> void each_field(protocol::Course& m, V& v) { auto& [a, b, c, d, e, f, g, h] = m; visit_all(v, a, b, c, d, e, f, g, h); }
-template <class V> void each_field(protocol::Beacon& m, V& v) { auto& [a, b, c, d, e, f] = m; visit_all(v, a, b, c, d, e, f); }
-template <class V> void each_field(mechanics::EdgePush& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
-template <class V> void each_field(mechanics::Harmonic& m, V& v) { auto& [a, b] = m; visit_all(v, a, b); }
-template <class V> void each_field(mechanics::Oscillation& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
-template <class V> void each_field(mechanics::LengthLaw& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
-template <class V> void each_field(mechanics::CarrierSlice& m, V& v) { auto& [a, b, c, d, e, f, g, h, i, j] = m; visit_all(v, a, b, c, d, e, f, g, h, i, j); }
-template <class V> void each_field(protocol::NumberedSlice& m, V& v) { auto& [a, b] = m; visit_all(v, a, b); }
-template <class V> void each_field(protocol::PlanOffer& m, V& v) { auto& [a, b, c, d, e] = m; visit_all(v, a, b, c, d, e); }
-template <class V> void each_field(protocol::HeldPlans& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
-template <class V> void each_field(protocol::TimeRequest& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
-template <class V> void each_field(protocol::TimeReply& m, V& v) { auto& [a, b, c, d, e, f, g, h, i] = m; visit_all(v, a, b, c, d, e, f, g, h, i); }
-template <class V> void each_field(protocol::DropCounts& m, V& v) { auto& [a, b, c, d] = m; visit_all(v, a, b, c, d); }
-template <class V> void each_field(protocol::AgentStatus& m, V& v) {
-  auto& [a, b, c, d, e, f, g, h, i, j, k, l, n, o, p, q, r] = m;
-  visit_all(v, a, b, c, d, e, f, g, h, i, j, k, l, n, o, p, q, r);
+template <class Visitor, class... Numbers>
+void visit_all(Visitor& visitor, Numbers&... numbers) {
+  (visitor(numbers), ...);
 }
-template <class V> void each_field(protocol::Setpoint& m, V& v) {
-  auto& [a, b, c, d, e, f, g, h, i, j, k, l, n] = m;
-  visit_all(v, a, b, c, d, e, f, g, h, i, j, k, l, n);
-}
-template <class V> void each_field(protocol::CarrierState& m, V& v) { auto& [a, b, c, d, e, f, g, h, i, j, k] = m; visit_all(v, a, b, c, d, e, f, g, h, i, j, k); }
-template <class V> void each_field(protocol::LoadState& m, V& v) { auto& [a, b, c, d, e, f, g] = m; visit_all(v, a, b, c, d, e, f, g); }
-template <class V> void each_field(protocol::Command& m, V& v) { auto& [a, b, c, d, e] = m; visit_all(v, a, b, c, d, e); }
-template <class V> void each_field(protocol::CommandReply& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
-template <class V> void each_field(protocol::CoordinatorStatus& m, V& v) { auto& [a, b, c, d, e, f, g, h, i] = m; visit_all(v, a, b, c, d, e, f, g, h, i); }
-template <class V> void each_field(protocol::MissionText& m, V& v) { auto& [a, b, c] = m; visit_all(v, a, b, c); }
-template <class V> void each_field(protocol::Health& m, V& v) { auto& [a, b, c, d, e, f, g] = m; visit_all(v, a, b, c, d, e, f, g); }
-template <class V> void each_field(protocol::Disturbance& m, V& v) { auto& [a, b, c, d, e, f] = m; visit_all(v, a, b, c, d, e, f); }
-// clang-format on
 
 /// Fills fields with anything their type can hold; a third of the numbers are extremes. Runs inside a property.
 struct Randomiser {
@@ -121,6 +88,7 @@ struct Randomiser {
     constexpr std::size_t kBound = std::is_same_v<T, protocol::Transition> ? protocol::kMaxTransitions
                                    : std::is_same_v<T, protocol::Ramp>     ? protocol::kMaxRamps
                                    : std::is_same_v<T, CarrierId>          ? kMaxCarrierId
+                                   : std::is_same_v<T, std::uint8_t>       ? protocol::kMaxJournalBytes
                                                                            : protocol::kMaxPlans;
     field.resize(*rc::gen::inRange<std::size_t>(0, kBound + 1));
     for (T& entry : field) (*this)(entry);
@@ -225,5 +193,7 @@ template protocol::Health random_message<protocol::Health>();
 template std::string bits_of(const protocol::Health&);
 template protocol::Disturbance random_message<protocol::Disturbance>();
 template std::string bits_of(const protocol::Disturbance&);
+template protocol::JournalPiece random_message<protocol::JournalPiece>();
+template std::string bits_of(const protocol::JournalPiece&);
 
 }  // namespace gyre::tests

@@ -21,9 +21,9 @@
 #include <string>
 #include <vector>
 
-namespace gyre::ground {
+#include "common/base/bytes.hpp"
 
-using Bytes = std::vector<std::uint8_t>;
+namespace gyre::ground {
 
 enum class Opcode : std::uint8_t {
   kHeader = 0x01,

@@ -1,5 +1,5 @@
 #pragma once
-// `gyre replay`: a recording shown at the page as if it were flown now.
+// `gyre replay`: a recording shown at the page as if it were flown now, or a process's core stepped through it again.
 
 #include "common/program/command_line.hpp"
 

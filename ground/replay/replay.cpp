@@ -1,4 +1,4 @@
-#include "ground/recording/replay.hpp"
+#include "ground/replay/replay.hpp"
 
 #include <cstdio>
 #include <memory>
@@ -7,11 +7,13 @@
 
 #include "common/base/interrupts.hpp"
 #include "common/base/text.hpp"
+#include "common/base/version.hpp"
 #include "common/dds/clock.hpp"
 #include "common/program/program.hpp"
 #include "ground/page/page.hpp"
+#include "ground/recording/message_stream.hpp"
 #include "ground/recording/recording_file.hpp"
-#include "ground/recording/swarm_stream.hpp"
+#include "ground/replay/core_replay.hpp"
 
 namespace gyre::ground {
 namespace {
@@ -22,6 +24,8 @@ struct ReplayOptions {
   double speed = 1.0;
   bool page = false;
   PageOptions page_options;
+  std::optional<int> agent;
+  bool coordinator = false;
 };
 
 /// When what was heard then is heard again.
@@ -50,9 +54,10 @@ std::string last_words(const SwarmStream& swarm) {
 }
 
 /// Until somebody ends it, beyond the recording's end, too: the last picture stays.
-void play(SwarmStream& swarm, const Heard& first, const ReplayOptions& options, SwarmView& view, Page& page) {
+void play(SwarmStream& swarm, const SwarmStream::Item& first, const ReplayOptions& options, SwarmView& view,
+          Page& page) {
   const Schedule schedule(first.arrived, options);
-  std::optional<Heard> next = first;
+  std::optional<SwarmStream::Item> next = first;
   bool over = false;
   while (take_interrupts().total() == 0) {
     const LocalTime now = dds::now();
@@ -71,16 +76,13 @@ void play(SwarmStream& swarm, const Heard& first, const ReplayOptions& options, 
   }
 }
 
-int replay(const ReplayOptions& options) {
-  const auto say = [](int code, const std::string& words) {
-    std::fprintf(stderr, "%s\n", words.c_str());
-    return code;
-  };
-  if (!options.page) return say(program::kBadUsage, "say how to replay it: --page shows it in a browser");
-  block_interrupts();
-  const auto source = open_recording(options.file);
-  if (!source) return say(program::kBadUsage, source.error().text);
-  auto opened = SwarmStream::open(*source.value());
+int say(int code, const std::string& words) {
+  std::fprintf(stderr, "%s\n", words.c_str());
+  return code;
+}
+
+int show(const McapSource& source, const ReplayOptions& options) {
+  auto opened = SwarmStream::open(source);
   if (!opened) return say(program::kBadUsage, options.file + ": " + opened.error().text);
   SwarmStream swarm = std::move(opened).value();
   const auto first = swarm.next();
@@ -97,15 +99,46 @@ int replay(const ReplayOptions& options) {
   return program::kGood;
 }
 
+int step_again(const McapSource& source, const ReplayOptions& options) {
+  std::optional<CarrierId> carrier;
+  if (options.agent) carrier = static_cast<CarrierId>(*options.agent);
+  const auto lives = replay_core(source, carrier);
+  if (!lives) return say(program::kBadUsage, options.file + ": " + lives.error().text);
+  bool same = true;
+  for (const Replayed& life : lives.value()) {
+    std::printf("%s%s", &life == &lives.value().front() ? "" : "\n", replay_text(life, version()).c_str());
+    same = same && life.same();
+  }
+  return same ? program::kGood : program::kFailed;
+}
+
+int replay(const ReplayOptions& options) {
+  const int ways = static_cast<int>(options.page) + static_cast<int>(options.agent.has_value()) +
+                   static_cast<int>(options.coordinator);
+  if (ways != 1) {
+    return say(program::kBadUsage,
+               "say how to replay it: --page shows it in a browser, --agent N or --coordinator steps that one again "
+               "through what it was told");
+  }
+  if (options.page) block_interrupts();
+  const auto source = open_recording(options.file);
+  if (!source) return say(program::kBadUsage, source.error().text);
+  return options.page ? show(*source.value(), options) : step_again(*source.value(), options);
+}
+
 }  // namespace
 
 program::Command replay_command() {
   const auto options = std::make_shared<ReplayOptions>();
   return {
       "replay",
-      "Show a recording as if it were flown now.",
+      "Show a recording as if it were flown now, or let a process decide again what it decided then.",
       {program::own({{"FILE", &options->file, "what gyre record wrote", {}, program::Take::kRequired},
                      {"--page", &options->page, "at a page, in a browser"},
+                     {"--agent", &options->agent,
+                      "step the agent of this carrier through what it was told, and say where it decides otherwise",
+                      program::Bounds{1, kMaxCarrierId}},
+                     {"--coordinator", &options->coordinator, "the same with the coordinator"},
                      {"--from", &options->from_s, "seconds of the recording to pass over", program::Bounds{0.0, 1e9}},
                      {"--speed", &options->speed, "how fast: 1 as it was", program::Bounds{0.01, 100.0}}}),
        {"The page", page_options(options->page_options)}},

@@ -1,0 +1,34 @@
+#include "common/program/journal.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace gyre::program {
+namespace {
+
+/// What does not fill a piece waits no longer.
+constexpr Duration kPeriod = std::chrono::milliseconds(100);
+/// Of what waits, so much goes at a beat: what has gathered until a recorder was found comes in some tenths of a
+/// second, and does not drown what flies.
+constexpr std::size_t kShare = 16;
+
+}  // namespace
+
+Journal::Journal(dds::Node& node, std::string process, const protocol::JournalEntry& beginning)
+    : process_(std::move(process)), incarnation_(node.incarnation()), pieces_(node.writer<protocol::JournalPiece>()) {
+  writer_.add(beginning);
+}
+
+void Journal::send(LocalTime now) {
+  if (writer_.waiting() == 0 || pieces_.readers() == 0) return;
+  const bool all = now < emptied_ || now - emptied_ >= kPeriod;  // a clock may be shifted back
+  const std::size_t enough = writer_.waiting() - writer_.waiting() / kShare;
+  do {
+    auto piece = writer_.next(all);
+    if (!piece) return;
+    pieces_.write({process_, incarnation_, piece->offset, std::move(piece->bytes)});
+  } while (writer_.waiting() > enough);
+  if (writer_.waiting() == 0) emptied_ = now;
+}
+
+}  // namespace gyre::program

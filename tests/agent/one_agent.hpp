@@ -48,6 +48,7 @@ class AgentTest : public testing::Test {
 
   Outputs tell(const Event& event) {
     Outputs out = agent_->step(now_, event);
+    if (stepped_) stepped_(event, out);
     if (out.status) status_ = out.status;
     if (out.held) held_ = out.held;
     if (out.setpoint) setpoint_ = out.setpoint;
@@ -202,6 +203,7 @@ class AgentTest : public testing::Test {
   bool judges_at_once_ = true;
   std::optional<PlanQuestion> question_;  ///< that was not answered yet
   std::function<void(const protocol::Setpoint&)> visit_;
+  std::function<void(const Event&, const Outputs&)> stepped_;
   std::string heard_;
   std::uint64_t sequence_ = 0;
 };

@@ -169,12 +169,12 @@ std::pair<double, double> packing_cost(const ground::McapSource& source, const g
   double bytes = 0.0;
   double taken_s = 0.0;
   for (const auto& chunk : index.chunks()) {
-    ground::Bytes record(static_cast<std::size_t>(chunk.length));
+    Bytes record(static_cast<std::size_t>(chunk.length));
     if (!source.read(chunk.offset, record.size(), record.data())) continue;
     const auto packed = ground::read_chunk({record.data() + ground::kRecordHead, record.size() - ground::kRecordHead});
-    const auto records = packed ? ground::unpack(*packed) : Result<ground::Bytes>(Error{});
+    const auto records = packed ? ground::unpack(*packed) : Result<Bytes>(Error{});
     if (!records) continue;
-    ground::Bytes to(::ZSTD_compressBound(records.value().size()));
+    Bytes to(::ZSTD_compressBound(records.value().size()));
     const auto begin = std::chrono::steady_clock::now();
     bytes += static_cast<double>(records.value().size());
     (void)::ZSTD_compress(to.data(), to.size(), records.value().data(), records.value().size(), 1);

@@ -52,6 +52,7 @@ class SwarmOfAgents {
 
   void tell(const Event& event) {
     const Outputs out = coordinator_ ? coordinator_->step(now, event) : Outputs{};
+    if (stepped && coordinator_) stepped(event, out);
     for (const Notice& notice : out.notices) news += notice.text + "\n";
     replies.insert(replies.end(), out.replies.begin(), out.replies.end());
     if (out.finished) finished = out.finished;
@@ -145,6 +146,7 @@ class SwarmOfAgents {
   std::set<CarrierId> mute;  ///< nothing they say arrives
   std::function<void(protocol::AgentStatus&)> change_status;
   std::function<void()> visit;
+  std::function<void(const Event&, const Outputs&)> stepped;  ///< the coordinator
   protocol::Silence silence;         ///< of the mission in force
   std::set<CarrierId> nobody_knows;  ///< whose part of the plan in force is lost
 

@@ -26,13 +26,13 @@ TEST(Conformance, EveryFileOfTheFormatIsRead) {
   while (manifest >> name >> messages >> indexed >> metadata) {
     ++files;
     std::ifstream file(folder + "/" + name + ".mcap", std::ios::binary);
-    const ground::Bytes bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    const Bytes bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     const Streamed read = streamed(bytes);
     EXPECT_TRUE(read.whole) << name;
     EXPECT_EQ(read.problems, 0U) << name << ": " << read.words;
     EXPECT_EQ(read.messages.size(), messages) << name;
     EXPECT_EQ(read.metadata.size(), metadata) << name;
-    for (const ground::Message& message : read.messages) EXPECT_EQ(message.payload, (ground::Bytes{1, 2, 3})) << name;
+    for (const ground::Message& message : read.messages) EXPECT_EQ(message.payload, (Bytes{1, 2, 3})) << name;
 
     const BytesSource source(bytes);
     const auto index = ground::McapIndex::open(source);

@@ -9,7 +9,6 @@
 namespace gyre::tests {
 namespace {
 
-using ground::Bytes;
 using ground::Opcode;
 using ground::RecordWriter;
 using testing::HasSubstr;
@@ -40,7 +39,7 @@ Bytes zstd(const Bytes& from) {
 TEST(HostileFile, ARecordLongerThanTheFileIsNotMadeRoomFor) {
   Bytes bytes = beginning();
   const std::size_t place = bytes.size();
-  ground::ByteWriter writer(bytes);
+  ByteWriter writer(bytes);
   writer.number(static_cast<std::uint8_t>(Opcode::kChunk));
   writer.number(std::uint64_t{0xFFFFFFFFFFFFFFFF});
   const Streamed read = streamed(bytes);
@@ -116,8 +115,8 @@ TEST(HostileFile, ASummaryThatPointsNowhereIsRefused) {
   const std::size_t footer = good.size() - ground::kMcapMagic.size() - ground::kFooterBytes;
   for (const std::uint64_t summary : {std::uint64_t{1}, std::uint64_t{good.size()}, ~std::uint64_t{0}}) {
     Bytes bytes = good;
-    ground::ByteWriter(bytes).overwrite(footer, summary);
-    ground::ByteWriter(bytes).overwrite(footer + 16, std::uint32_t{0});  // no checksum
+    ByteWriter(bytes).overwrite(footer, summary);
+    ByteWriter(bytes).overwrite(footer + 16, std::uint32_t{0});  // no checksum
     const BytesSource source(bytes);
     const auto index = ground::McapIndex::open(source);
     ASSERT_FALSE(index.ok());

@@ -41,7 +41,7 @@ TEST(Judged, RandomMessagesOfEveryTypeAreReadByOthers) {
     ASSERT_TRUE(created.ok());
     ground::RecordingFile file = std::move(created).value();
     ground::Recording recording("test", {});
-    const auto append = [&](const ground::Bytes& piece) {
+    const auto append = [&](const Bytes& piece) {
       ASSERT_FALSE(file.append(piece));
       recording.writer().written();
     };

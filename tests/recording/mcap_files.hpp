@@ -15,7 +15,7 @@ namespace gyre::tests {
 
 class BytesSource final : public ground::McapSource {
  public:
-  explicit BytesSource(ground::Bytes bytes) : bytes_(std::move(bytes)) {}
+  explicit BytesSource(Bytes bytes) : bytes_(std::move(bytes)) {}
   [[nodiscard]] std::uint64_t size() const override { return bytes_.size(); }
   [[nodiscard]] bool read(std::uint64_t offset, std::size_t count, std::uint8_t* to) const override {
     if (offset > bytes_.size() || count > bytes_.size() - offset) return false;
@@ -24,7 +24,7 @@ class BytesSource final : public ground::McapSource {
   }
 
  private:
-  ground::Bytes bytes_;
+  Bytes bytes_;
 };
 
 /// One that somebody writes by hand.
@@ -42,14 +42,14 @@ class FileInMemory {
     if (writer.due(message.log_ns)) close_chunk();
   }
   void close_chunk() { take(writer.close_chunk()); }
-  ground::Bytes finish() {
+  Bytes finish() {
     close_chunk();
     take(writer.finish({"last", {{"lost", "0"}}}));
     return bytes;
   }
 
   ground::McapWriter writer;
-  ground::Bytes bytes;
+  Bytes bytes;
   std::vector<std::size_t> wholes;  ///< sizes at which the file was whole up to there
 
  private:
@@ -59,7 +59,7 @@ class FileInMemory {
     options.chunk_bytes = chunk_bytes;
     return options;
   }
-  void take(const ground::Bytes& piece) {
+  void take(const Bytes& piece) {
     bytes.insert(bytes.end(), piece.begin(), piece.end());
     if (!piece.empty()) writer.written();
     wholes.push_back(bytes.size());
@@ -80,7 +80,7 @@ struct Streamed {
   std::string words;  ///< of the first problem, or why it is no such file
 };
 
-inline Streamed streamed(const ground::Bytes& bytes) {
+inline Streamed streamed(const Bytes& bytes) {
   Streamed all;
   const BytesSource source(bytes);
   auto stream = ground::McapStream::open(source);

@@ -13,7 +13,6 @@
 namespace gyre::tests {
 namespace {
 
-using ground::Bytes;
 using ground::McapIndex;
 using ground::McapQuery;
 using ground::Message;

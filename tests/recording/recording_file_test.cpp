@@ -14,7 +14,6 @@
 namespace gyre::tests {
 namespace {
 
-using ground::Bytes;
 using ground::RecordingFile;
 using testing::HasSubstr;
 

@@ -11,7 +11,6 @@ namespace gyre::tests {
 namespace {
 
 using ground::Arrival;
-using ground::Bytes;
 using ground::Recording;
 using testing::HasSubstr;
 

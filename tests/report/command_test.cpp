@@ -4,12 +4,9 @@
 
 #include <cstdlib>
 
-#include "common/dds/payload.hpp"
-#include "common/dds/topics.hpp"
-#include "ground/recording/core/recording.hpp"
-#include "ground/recording/recording_file.hpp"
 #include "tests/ground/gyre_command.hpp"
 #include "tests/ground/svg_reader.hpp"
+#include "tests/recording/written_recording.hpp"
 #include "tests/report/perfect_swarm.hpp"
 
 namespace gyre::test {
@@ -17,15 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-template <class Message>
-std::optional<CarrierId> carrier_of(const Message& message) {
-  if constexpr (dds::kTopic<Message>.per_carrier) {
-    return message.carrier;
-  } else {
-    return std::nullopt;
-  }
-}
 
 class ReportCommand : public testing::Test {
  protected:
@@ -40,32 +28,11 @@ class ReportCommand : public testing::Test {
 
   /// What the swarm says, in a file.
   [[nodiscard]] std::string recorded(const PerfectSwarm& swarm, const std::string& name) const {
-    auto created = ground::RecordingFile::create(in_folder(name), ground::RecordingFile::Existing::kReplace);
-    EXPECT_TRUE(created.ok());
-    ground::RecordingFile file = std::move(created).value();
-    ground::Recording recording("test", {{"begin", "2026-01-02T03:04:05Z"}, {"domain", "7"}});
-    const auto append = [&](const ground::Bytes& piece) {
-      EXPECT_FALSE(file.append(piece));
-      recording.writer().written();
-    };
-    append(recording.begin());
-    std::uint64_t sequence = 0;
+    WrittenRecording recording(in_folder(name));
     for (const ground::Heard& heard : swarm.flight()) {
-      const auto log_ns = static_cast<std::uint64_t>(heard.arrived.time_since_epoch().count());
-      std::visit(
-          [&](const auto& message) {
-            using Message = std::decay_t<decltype(message)>;
-            const auto payload = dds::encode_payload(message);
-            ASSERT_TRUE(payload);
-            const auto& topic = dds::kTopic<Message>;
-            recording.add(
-                {dds::topic_name(topic, carrier_of(message)), topic.type, {}, {}, ++sequence, 1, log_ns, *payload});
-          },
-          heard.message);
-      if (recording.writer().due(log_ns)) append(recording.writer().close_chunk());
+      std::visit([&](const auto& message) { recording.add(heard.arrived, message); }, heard.message);
     }
-    append(recording.writer().close_chunk());
-    append(recording.writer().finish({"gyre_recording", {{"lost", "0"}}}));
+    recording.finish();
     return in_folder(name);
   }
 
@@ -160,13 +127,13 @@ TEST_F(ReportCommand, WhatIsNoRecordingIsTwoAndLeavesNothing) {
 
 TEST_F(ReportCommand, AnotherSwarmsFileOfMcapHasNothingToReport) {
   ground::McapWriter writer({});
-  ground::Bytes bytes = writer.begin({"about", {}});
+  Bytes bytes = writer.begin({"about", {}});
   writer.written();
   const auto channel =
       writer.channel(writer.schema("std_msgs/msg/String", "ros2msg", "string data\n"), "/chat", "cdr", {});
   writer.add({*channel, 1, 1, 1, {0, 1, 0, 0}});
   for (const bool last : {false, true}) {
-    const ground::Bytes piece = last ? writer.finish({"last", {}}) : writer.close_chunk();
+    const Bytes piece = last ? writer.finish({"last", {}}) : writer.close_chunk();
     writer.written();
     bytes.insert(bytes.end(), piece.begin(), piece.end());
   }

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "common/dds/clock.hpp"
@@ -227,8 +228,12 @@ void Node::Impl::record(const std::function<void(RecordedSample)>& handler, std:
   listeners.push_back(std::move(listener));
 }
 
-void Node::record(const std::function<void(RecordedSample)>& handler, std::optional<CarrierId> carrier) {
-  const auto record_each = [&](auto... messages) { (impl_->record<decltype(messages)>(handler, carrier), ...); };
+void Node::record(const std::function<void(RecordedSample)>& handler, std::optional<CarrierId> carrier, bool journals) {
+  const auto record_one = [&](auto message) {
+    using Message = decltype(message);
+    if (journals || !std::is_same_v<Message, protocol::JournalPiece>) impl_->record<Message>(handler, carrier);
+  };
+  const auto record_each = [&](auto... messages) { (record_one(messages), ...); };
   std::apply(record_each, EveryMessage{});
 }
 

@@ -86,8 +86,10 @@ class Node {
   void read(std::function<void(Message, LocalTime)> handler, std::optional<CarrierId> carrier = std::nullopt);
 
   /// Every topic of the swarm, or with a carrier every topic of that one, as bytes: `handler` runs in a Fast DDS thread
-  /// for each sample that arrives, whatever is in it. A node that records reads nothing of the same topics.
-  void record(const std::function<void(RecordedSample)>& handler, std::optional<CarrierId> carrier = std::nullopt);
+  /// for each sample that arrives, whatever is in it. A node that records reads nothing of the same topics. Without
+  /// `journals` no process sends its own: they are half of what is recorded.
+  void record(const std::function<void(RecordedSample)>& handler, std::optional<CarrierId> carrier = std::nullopt,
+              bool journals = true);
 
   [[nodiscard]] int domain() const;
   /// Tells one life of a process from the next, and from another's: the moment at which this node was opened. Not 0.

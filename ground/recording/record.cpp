@@ -29,6 +29,7 @@ struct RecordOptions {
   std::optional<double> duration_s;
   std::optional<std::string> mission;
   bool force = false;
+  bool without_journals = false;
   program::Options common;
 };
 
@@ -50,9 +51,9 @@ std::string utc(std::uint64_t wall_ns, const char* format) {
 
 class Attendance {
  public:
-  Attendance(dds::Node& node, Recorder& recorder)
+  Attendance(dds::Node& node, Recorder& recorder, bool journals)
       : node_(node), record_([&recorder](dds::RecordedSample sample) { recorder.push(std::move(sample)); }) {
-    node_.record(record_);
+    node_.record(record_, std::nullopt, journals);
   }
   /// Listens to those that it does not listen to yet.
   void attend(const std::set<CarrierId>& carriers) {
@@ -95,7 +96,7 @@ int record(const RecordOptions& options) {
   Recorder recorder(std::move(file).value(), begin,
                     {{"domain", std::to_string(node->domain())}, {"begin", utc(begin.wall_ns, "%Y-%m-%dT%H:%M:%SZ")}},
                     std::move(mission));
-  Attendance attendance(*node, recorder);
+  Attendance attendance(*node, recorder, !options.without_journals);
   attendance.attend(carriers);
   log_info("recording to " + path);
 
@@ -122,6 +123,8 @@ program::Command record_command() {
            {"--duration", &options->duration_s, "seconds to record (else until ctrl-c)", program::Bounds{0.001, 1e9}},
            {"--mission", &options->mission,
             "the mission that will be flown: its carriers are heard from the first word on"},
+           {"--without-journals", &options->without_journals,
+            "leave out what processes were told, half of all: for thin links; gyre replay cannot step them then"},
            {"--force", &options->force, "replace a file of this name"}},
           options->common),
       [options] { return record(*options); }};

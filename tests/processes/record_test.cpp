@@ -110,6 +110,19 @@ TEST_F(RecordTest, AFlightIsRecordedAndAKilledRecorderLosesItsLastSecondOnly) {
   EXPECT_EQ((*flying)["carriers"].size(), 4U);
   replay.send(SIGTERM);
   EXPECT_EQ(replay.end_within(10.0).exit_code, 0) << replay.said();
+  // Each process decides again as it did, by its journal, though the recorder came a moment after it.
+  for (const std::string& who : {"--agent 1", "--agent 4", "--coordinator"}) {
+    const std::size_t blank = who.find(' ');
+    std::vector<std::string> words{"replay", path, who.substr(0, blank)};
+    if (blank != std::string::npos) words.push_back(who.substr(blank + 1));
+    Launched again = gyre(words);
+    EXPECT_EQ(again.end_within(20.0).exit_code, 0) << again.said();
+    EXPECT_THAT(again.said(), HasSubstr("It decides as it did then.")) << who;
+  }
+  Launched half = gyre({"replay", killed_path, "--agent", "1"});
+  half.end_within(20.0);
+  EXPECT_THAT(half.said(), testing::AnyOf(HasSubstr("It decides as it did then."), HasSubstr("no journal")))
+      << half.said();
   Launched to_the_cut = gyre({"replay", killed_path, "--page", "--port", "0", "--speed", "100"});
   EXPECT_TRUE(to_the_cut.says_within(20.0, "the recording was cut off here")) << to_the_cut.said();
 

@@ -179,6 +179,21 @@ TEST_F(ReplayTest, AnEntryOfAnotherVersionEndsIt) {
   EXPECT_THAT(text_of(again), HasSubstr("The journal ends there: entry 10 is none of this version."));
 }
 
+// Whatever is in a file: it is stepped as far as it is a journal, and nothing falls over.
+TEST_F(ReplayTest, ADamagedJournalIsStepped) {
+  engage();
+  RandomStream random(1, "damage");
+  int otherwise = 0;
+  for (int i = 0; i < 200; ++i) {
+    test::Journaled damaged("agent 1", 1);
+    damaged.entries = kept_.entries;
+    damaged.damage(random);
+    const auto lives = damaged.replay(1);
+    if (!lives || !lives.value().front().same() || !lives.value().front().cut.empty()) ++otherwise;
+  }
+  EXPECT_GT(otherwise, 100);
+}
+
 TEST_F(ReplayTest, AnotherVersionIsSaid) {
   engage();
   EXPECT_THAT(ground::replay_text(replayed(), "9.9"), HasSubstr(" and is 9.9 now."));

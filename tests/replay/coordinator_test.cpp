@@ -91,6 +91,21 @@ TEST_F(CoordinatorReplay, WithAnotherMissionItDecidesOtherwise) {
   EXPECT_THAT(ground::replay_text(again, again.version), HasSubstr("plan offers: slices[0].slice.law.kind is "));
 }
 
+TEST_F(CoordinatorReplay, ADamagedJournalIsStepped) {
+  begin();
+  swarm_.fly(std::chrono::seconds(3));
+  RandomStream random(1, "damage");
+  int otherwise = 0;
+  for (int i = 0; i < 100; ++i) {
+    gyre::test::Journaled damaged("coordinator", 1);
+    damaged.entries = kept_.entries;
+    damaged.damage(random);
+    const auto lives = damaged.replay(std::nullopt);
+    if (!lives || !lives.value().front().same() || !lives.value().front().cut.empty()) ++otherwise;
+  }
+  EXPECT_GT(otherwise, 30);
+}
+
 TEST_F(CoordinatorReplay, AMissionThatCannotBeFlownIsSaid) {
   begin();
   swarm_.fly(std::chrono::seconds(1));

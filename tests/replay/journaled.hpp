@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/random_stream.hpp"
 #include "common/protocol/journal.hpp"
 #include "ground/recording/recording_file.hpp"
 #include "ground/replay/core_replay.hpp"
@@ -42,6 +43,21 @@ class Journaled {
     const auto source = ground::open_recording(path());
     EXPECT_TRUE(source);
     return ground::replay_core(*source.value(), carrier);
+  }
+
+  /// A few bytes of it are others.
+  void damage(RandomStream& random) {
+    for (std::uint64_t i = 1 + random.next() % 8; i > 0; --i) {
+      protocol::JournalEntry& entry = entries[random.next() % entries.size()];
+      const std::uint64_t what = random.next() % 8;
+      if (what == 0) {
+        entry.kind = static_cast<std::uint8_t>(random.next() % 12);
+      } else if (what == 1) {
+        entry.at = LocalTime(Duration(static_cast<Duration::rep>(random.next() >> (random.next() % 64))));
+      } else if (!entry.content.empty()) {
+        entry.content[random.next() % entry.content.size()] = static_cast<std::uint8_t>(random.next());
+      }
+    }
   }
 
   std::vector<protocol::JournalEntry> entries;

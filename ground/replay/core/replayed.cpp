@@ -44,7 +44,7 @@ std::string replay_text(const Replayed& replayed, const std::string& this_versio
   if (replayed.version != this_version)
     words += "It was gyre " + replayed.version + " and is " + this_version + " now.\n";
   std::string heard;
-  for (const auto& [kind, count] : replayed.heard) heard += (heard.empty() ? "" : ", ") + number(count) + " " + kind;
+  for (const auto& [kind, count] : replayed.heard) heard += (heard.empty() ? "" : ", ") + kind + " " + number(count);
   for (const std::string& line : wrapped("told: " + heard, 100)) words += "  " + line + "\n";
   if (!comparison.notices().empty())
     words += "Its log, by seconds:\n" + lines(comparison.notices(), comparison.first());

@@ -117,9 +117,8 @@ class SwarmOfAgents {
   [[nodiscard]] double pace() const { return moment().pace; }
   [[nodiscard]] bool rests() const { return course().rests(beacon->swarm_time); }
   [[nodiscard]] bool moves() const {
-    double speed = 0.0;
-    for (const auto& [id, s] : setpoints) speed = std::max(speed, s.velocity_w_m_s.norm());
-    return speed > 1e-6;
+    const auto moves = [](const auto& said) { return said.second.velocity_w_m_s.norm() > 1e-6; };
+    return std::any_of(setpoints.begin(), setpoints.end(), moves);
   }
   /// Whether all agents that live fly one and the same phase, from now on for so long, and as the coordinator has it.
   void expect_one_phase(Duration ahead) const {
@@ -147,8 +146,8 @@ class SwarmOfAgents {
   std::function<void(protocol::AgentStatus&)> change_status;
   std::function<void()> visit;
   std::function<void(const Event&, const Outputs&)> stepped;  ///< the coordinator
-  protocol::Silence silence;         ///< of the mission in force
-  std::set<CarrierId> nobody_knows;  ///< whose part of the plan in force is lost
+  protocol::Silence silence;                                  ///< of the mission in force
+  std::set<CarrierId> nobody_knows;                           ///< whose part of the plan in force is lost
 
  private:
   [[nodiscard]] std::set<CarrierId> carriers() const {

@@ -111,7 +111,7 @@ TEST_F(RecordTest, AFlightIsRecordedAndAKilledRecorderLosesItsLastSecondOnly) {
   replay.send(SIGTERM);
   EXPECT_EQ(replay.end_within(10.0).exit_code, 0) << replay.said();
   // Each process decides again as it did, by its journal, though the recorder came a moment after it.
-  for (const std::string& who : {"--agent 1", "--agent 4", "--coordinator"}) {
+  for (const std::string who : {"--agent 1", "--agent 4", "--coordinator"}) {
     const std::size_t blank = who.find(' ');
     std::vector<std::string> words{"replay", path, who.substr(0, blank)};
     if (blank != std::string::npos) words.push_back(who.substr(blank + 1));

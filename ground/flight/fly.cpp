@@ -58,10 +58,10 @@ void excuse(const StarvationJudge& starvation) {
 
 int report_failure(const FlightFailure& failure, const Supervisor& supervisor, FlightDirectory& directory) {
   directory.keep();
-  std::string text = "The flight failed: " + failure.text + ".";
+  std::string text = "The flight failed: " + failure.text + ".\n";
   if (failure.culprit) {
     const std::string tail = supervisor.log_tail(*failure.culprit);
-    text += "\nThe end of " + supervisor.log_path(*failure.culprit) + ":\n" + (tail.empty() ? "(empty)\n" : tail);
+    text += "The end of " + supervisor.log_path(*failure.culprit) + ":\n" + (tail.empty() ? "(empty)\n" : tail);
   }
   return say(program::kFailed, text + "All logs: " + directory.path());
 }

@@ -26,6 +26,8 @@ constexpr auto kEndIsSeen = std::chrono::milliseconds(100);
 constexpr Duration kStillThere = std::chrono::seconds(5);
 constexpr Duration kLook = std::chrono::seconds(1);
 
+static_assert(ServerBounds{}.places > kMostWatchers, "who looks on leaves places for what is short");
+
 constexpr const char* kTheServerEnds = "the server ends";
 constexpr const char* kNoPage =
     "<!doctype html><meta charset=utf-8><title>Gyre</title><p>This gyre was built without the page: Node and npm were "

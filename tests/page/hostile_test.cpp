@@ -64,6 +64,7 @@ TEST_F(HostileTest, ABodyThatIsTooLongIsRefusedUnread) {
   Connection whole = connect();
   whole.send(head + "400000\r\n\r\n" + std::string(400'000, 'x'));
   ASSERT_TRUE(whole.reads_the_end());
+  EXPECT_FALSE(whole.was_reset());
   const Reply reply = reply_of(whole.got());
   EXPECT_EQ(reply.status, 413);
   EXPECT_THAT(words(reply), HasSubstr("a request may have 327680 bytes"));

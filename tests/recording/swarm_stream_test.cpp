@@ -137,7 +137,7 @@ TEST_F(SwarmStreamTest, ATimeThatNoClockHasIsCountedAndMovesNothing) {
   const std::uint16_t on_states = states();
   add(on_states, state(1), 1000);
   add(on_states, state(2), std::numeric_limits<std::uint64_t>::max());
-  add(on_states, state(3), std::uint64_t{1} << 63);
+  add(on_states, state(3), static_cast<std::uint64_t>(kLongest.count()) + 1);
   add(on_states, state(4), 2000);
   const Read all = read();
   EXPECT_EQ(all.carriers(), (Carriers{1, 4}));

@@ -35,6 +35,14 @@ CLI::Validator within(const Bounds& bounds) {
   return {judge, ""};
 }
 
+/// From the environment an empty word is as good as none, and does not come here.
+CLI::Validator not_empty() {
+  const auto judge = [](const std::string& words) {
+    return words.empty() ? std::string("an empty word says nothing; give it a value, or leave it out") : std::string();
+  };
+  return {judge, ""};
+}
+
 template <class T>
 struct IsOptional : std::false_type {};
 template <class T>
@@ -65,6 +73,7 @@ void declare(CLI::App& app, const std::vector<OptionGroup>& groups) {
     for (const Option& option : group.options) {
       CLI::Option* const declared = std::visit([&](auto* value) { return declare(app, option, *value); }, option.value);
       if (option.name.front() == '-') declared->group(group.title);
+      if (!std::holds_alternative<bool*>(option.value)) declared->check(not_empty());
       if (option.bounds) declared->check(within(*option.bounds));
       if (option.take != Take::kUsually) declared->required();
       if (option.take != Take::kByHand) declared->envname(variable_of(option.name));

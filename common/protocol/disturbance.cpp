@@ -20,6 +20,12 @@ std::optional<std::string> objection_to_loss(const Disturbance& d) {
   return std::nullopt;
 }
 
+std::optional<std::string> objection_to_push_time(Duration duration) {
+  if (duration > Duration::zero() && duration <= kLongestPush) return std::nullopt;
+  return text("a push of %.4g s; the load is pushed for more than 0 and at most %.0f s", seconds(duration),
+              seconds(kLongestPush));
+}
+
 }  // namespace
 
 bool names_process(const std::string& name) {
@@ -31,8 +37,8 @@ bool names_process(const std::string& name) {
   return carrier >= 1 && carrier <= static_cast<int>(kMaxCarrierId) && name == agent + std::to_string(carrier);
 }
 
-std::optional<std::string> DisturbanceJudge::objection(LocalTime now, const Disturbance& d) const {
-  const bool simulator = process_ == kSimulator;
+std::optional<std::string> objection(const Disturbance& d, const Suffered& so_far) {
+  const bool simulator = d.process == kSimulator;
   switch (d.kind) {
     case DisturbanceKind::kLosePackets:
       return objection_to_loss(d);
@@ -42,21 +48,30 @@ std::optional<std::string> DisturbanceJudge::objection(LocalTime now, const Dist
         return text("a clock is shifted by %.0f s back to %.0f s on, and not by nothing", seconds(kFurthestShiftBack),
                     seconds(kFurthestShift));
       }
-      if (shifted_ + d.shift > kFurthestClock || shifted_ + d.shift < -kFurthestClock) {
-        return text("this clock has been shifted by %.0f s already; start the process again", seconds(shifted_));
+      if (so_far.shifted + d.shift > kFurthestClock || so_far.shifted + d.shift < -kFurthestClock) {
+        return text("this clock has been shifted by %.0f s already; start the process again", seconds(so_far.shifted));
       }
-      if (d.shift < Duration::zero() && shifted_back_at_ && now - *shifted_back_at_ < kBetweenShiftsBack) {
+      if (d.shift < Duration::zero() && so_far.stands_still) {
         return "this clock stands still as it is; shift it again when it goes";
       }
       return std::nullopt;
     case DisturbanceKind::kPushLoad:
       if (!simulator) return "only the simulator has a load to push";
-      if (d.duration <= Duration::zero() || d.duration > kLongestPush) {
-        return text("the load is pushed for more than 0 and at most %.0f s", seconds(kLongestPush));
-      }
-      return std::nullopt;
+      return objection_to_push_time(d.duration);
   }
   return "there is no such disturbance";
+}
+
+std::optional<std::string> objection_to_push(const Eigen::Vector3d& force_w_n, Duration duration, double weight_n) {
+  // Not a > b, which would let through what is no number.
+  if (!(force_w_n.norm() <= weight_n)) {
+    return text("a push of %.4g N; the load weighs %.4g N, and is pushed by no more", force_w_n.norm(), weight_n);
+  }
+  return objection_to_push_time(duration);
+}
+
+Suffered DisturbanceJudge::suffered(LocalTime now) const {
+  return {shifted_, shifted_back_at_ && now - *shifted_back_at_ < kBetweenShiftsBack};
 }
 
 Disturbing DisturbanceJudge::take(LocalTime now, const Disturbance& d) {
@@ -72,7 +87,7 @@ Disturbing DisturbanceJudge::take(LocalTime now, const Disturbance& d) {
     return out;
   }
   if (d.process != process_) return out;
-  if (const auto why = objection(now, d)) {
+  if (const auto why = objection(d, suffered(now))) {
     refuse(*why);
     return out;
   }

@@ -10,7 +10,8 @@
 // clock that stands still for so long that its process answers nobody; another clock for the simulator, whose clock is
 // the world's time: a world that leaps holds no load.
 //
-// Whether a push is too strong for the load is for the simulator, which knows its weight.
+// Whether a push is too strong for the load is for who knows its weight: the simulator, and who asks a person for it.
+// What decides is here once, so that nobody is promised what its process then refuses.
 
 #include <cstdint>
 #include <optional>
@@ -36,6 +37,20 @@ inline constexpr Duration kLongestPush = std::chrono::seconds(10);
 /// Whether there can be such a process: "coordinator", "simulator", "agent N".
 [[nodiscard]] bool names_process(const std::string& name);
 
+/// What has been done to a process so far, as far as the next disturbance depends on it.
+struct Suffered {
+  Duration shifted{};         ///< of its clock, by all shifts since it began
+  bool stands_still = false;  ///< its clock was shifted back, and has not gone on by kBetweenShiftsBack since
+};
+
+/// What is wrong with one for the process that it names, and what would be right. Numbers as sane() demands them.
+[[nodiscard]] std::optional<std::string> objection(const Disturbance& disturbance, const Suffered& so_far);
+
+/// Nothing stronger than the load's weight: it would lift the load out of its cables, or tear it to where no path was
+/// certified.
+[[nodiscard]] std::optional<std::string> objection_to_push(const Eigen::Vector3d& force_w_n, Duration duration,
+                                                           double weight_n);
+
 /// To be performed at once, between two beats of the main loop.
 struct Disturbing {
   std::optional<double> share;      ///< of the packets that are lost from now on
@@ -57,8 +72,7 @@ class DisturbanceJudge {
   [[nodiscard]] std::uint64_t nonsense() const { return nonsense_; }
 
  private:
-  /// What is wrong with one that is meant for this process, and what would be right.
-  [[nodiscard]] std::optional<std::string> objection(LocalTime now, const Disturbance& disturbance) const;
+  [[nodiscard]] Suffered suffered(LocalTime now) const;
 
   std::string process_;
   std::optional<LocalTime> lossy_until_;

@@ -69,7 +69,7 @@ std::optional<FlightFailure> Flight::run() {
 void Flight::turn_page(LocalTime now) {
   if (!page_) return;
   for (HurtTask& task : page_->take_hurts()) {
-    const Answer answer = hurting_->perform(task.wish);
+    const Answer answer = hurting_->perform(now, task.wish);
     if (answer.done) page_->feed().hurt(now, answer.text);
     if (answer.done) by_hand_.push_back(answer.text);
     task.answer->set_value(answer);

@@ -3,10 +3,22 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 
 namespace gyre::ground {
 
-FlightDisplay::FlightDisplay() : terminal_(::isatty(STDERR_FILENO) == 1) {}
+namespace {
+
+/// One that is dumb knows no escape sequences, and shows them as letters.
+bool moves_its_cursor() {
+  const char* const kind = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) == 1 && kind != nullptr && *kind != '\0' && std::string_view(kind) != "dumb";
+}
+
+}  // namespace
+
+FlightDisplay::FlightDisplay() : terminal_(moves_its_cursor()) {}
 
 void FlightDisplay::show(const FlightProgress& progress) {
   if (terminal_) {

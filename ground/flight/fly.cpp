@@ -58,10 +58,10 @@ void excuse(const StarvationJudge& starvation) {
 
 int report_failure(const FlightFailure& failure, const Supervisor& supervisor, FlightDirectory& directory) {
   directory.keep();
-  std::string text = "The flight failed: " + failure.text + ".";
+  std::string text = "The flight failed: " + failure.text + ".\n";
   if (failure.culprit) {
     const std::string tail = supervisor.log_tail(*failure.culprit);
-    text += "\nThe end of " + supervisor.log_path(*failure.culprit) + ":\n" + (tail.empty() ? "(empty)\n" : tail);
+    text += "The end of " + supervisor.log_path(*failure.culprit) + ":\n" + (tail.empty() ? "(empty)\n" : tail);
   }
   return say(program::kFailed, text + "All logs: " + directory.path());
 }
@@ -145,7 +145,7 @@ int fly_certified(const FlyOptions& options, const mission::Mission& mission) {
   FlightDisplay display;
   Supervisor supervisor(directory.path());
   Flight flight(mission, duration_s, *net.node, supervisor, display);
-  Hurting hurting(*net.node, supervisor, programs.value());
+  Hurting hurting(*net.node, supervisor, programs.value(), mission.plan.load.mass_kg * mission.plan.gravity_m_s2);
   const auto page = open_page(options, net, flight, hurting);
   if (!page) return say(program::kFailed, page.error().text);
   if (const auto unrecorded = begin_recording(options, net, home.value(), supervisor)) {
@@ -166,12 +166,23 @@ int fly_certified(const FlyOptions& options, const mission::Mission& mission) {
   return code;
 }
 
+/// What is wrong with the options, and what would be right.
+std::optional<std::string> objection_to(const FlyOptions& options) {
+  if (options.record && std::filesystem::exists(*options.record)) {
+    return *options.record + " is there already: record into another file, or move it away";
+  }
+  if (!options.page && options.page_options.any()) {
+    return "--address, --port, --token and --host are the page's: give --page, too, or leave them out (also GYRE_PORT, "
+           ".. "
+           "in the environment)";
+  }
+  return objection(options.page_options);
+}
+
 int fly(const FlyOptions& options) {
   const auto mission = program::read_mission(options.mission);
   if (!mission) return mission.error();
-  if (options.record && std::filesystem::exists(*options.record)) {
-    return say(program::kBadUsage, *options.record + " is there already: record into another file, or move it away");
-  }
+  if (const auto why = objection_to(options)) return say(program::kBadUsage, *why);
   const mechanics::Certificate certificate = mechanics::certify(mission.value().plan);
   if (!certificate.admissible()) {
     std::printf(

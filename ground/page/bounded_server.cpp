@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <chrono>
 #include <string>
+#include <utility>
 
 namespace gyre::ground {
 namespace {
@@ -28,17 +29,55 @@ bool ready_by(int socket, short events, Clock::time_point deadline) {
   }
 }
 
-class BoundedStream final : public httplib::Stream {
+LocalTime local(Clock::time_point time) {
+  return LocalTime(std::chrono::duration_cast<Duration>(time.time_since_epoch()));
+}
+
+/// Of the request that this thread is at.
+thread_local bool last_of_connection = false;
+
+}  // namespace
+
+/// Whoever is taken in is at the door until a thread is free for him.
+class BoundedServer::Queue final : public httplib::TaskQueue {
  public:
-  BoundedStream(socket_t socket, const ServerBounds& bounds) : socket_(socket), bounds_(bounds) {}
+  explicit Queue(BoundedServer& server) : server_(server), threads_(server.bounds_.places) {}
+
+  // It tells something since 0.18.
+  using Told = decltype(std::declval<httplib::TaskQueue&>().enqueue(std::function<void()>()));
+  Told enqueue(std::function<void()> task) override {
+    server_.come();
+    return threads_.enqueue(std::move(task));
+  }
+  void shutdown() override { threads_.shutdown(); }
+
+ private:
+  BoundedServer& server_;
+  httplib::ThreadPool threads_;
+};
+
+class BoundedServer::Stream final : public httplib::Stream {
+ public:
+  Stream(socket_t socket, BoundedServer& server) : socket_(socket), server_(server), bounds_(server.bounds_) {}
 
   /// Whether another request begins before the connection counts as idle; from then on its bounds count. Where the one
   /// before was not read to its end, nobody knows where the next begins.
   bool begin_request() {
-    if (broken_ || (at_ == end_ && !ready_by(socket_, POLLIN, Clock::now() + bounds_.idle_time))) return false;
+    begin_ = Clock::now();
+    if (broken_ || (at_ == end_ && !comes_by(begin_ + bounds_.idle_time))) return false;
     bytes_left_ = bounds_.request_bytes;
     deadline_ = Clock::now() + bounds_.request_time;
     return true;
+  }
+
+  /// Who still sends would not read what closes upon him, as an answer to what was not read; so it is waited for that
+  /// he ends, or notices. Not for long.
+  void part() {
+    if (!broken_ && !last_of_connection) return;
+    ::shutdown(socket_, SHUT_WR);
+    deadline_ = Clock::now() + bounds_.last_words;
+    for (std::size_t left = bounds_.request_bytes; left > 0 && fill() && end_ > 0; left -= std::min(left, end_)) {
+    }
   }
 
   bool is_readable() const override { return at_ < end_ || ready_by(socket_, POLLIN, deadline_); }
@@ -69,9 +108,17 @@ class BoundedStream final : public httplib::Stream {
   socket_t socket() const override { return socket_; }
 
  private:
+  /// Meanwhile he may have to leave for somebody else.
+  bool comes_by(Clock::time_point deadline) {
+    server_.wait(socket_, local(begin_));
+    const bool came = ready_by(socket_, POLLIN, deadline);
+    server_.go_on(socket_);
+    return came;
+  }
+
   /// False: nothing came in time, or the connection broke. An end leaves the buffer empty.
   bool fill() {
-    if (!ready_by(socket_, POLLIN, deadline_)) return false;
+    if (!comes_by(deadline_)) return false;
     const ssize_t got = ::recv(socket_, buffer_.data(), buffer_.size(), 0);
     if (got < 0) return false;
     at_ = 0;
@@ -90,22 +137,49 @@ class BoundedStream final : public httplib::Stream {
   }
 
   const socket_t socket_;
+  BoundedServer& server_;
   const ServerBounds& bounds_;
   std::array<char, 4096> buffer_{};
   std::size_t at_ = 0, end_ = 0;
   std::size_t bytes_left_ = 0;
   bool broken_ = false;
-  Clock::time_point deadline_{};
+  Clock::time_point begin_{}, deadline_{};
 };
 
-}  // namespace
-
-BoundedServer::BoundedServer(const ServerBounds& bounds) : bounds_(bounds) {
+BoundedServer::BoundedServer(const ServerBounds& bounds) : bounds_(bounds), book_(bounds.places) {
   set_payload_max_length(bounds.request_bytes);
+  new_task_queue = [this] { return new Queue(*this); };
+}
+
+void BoundedServer::close_after_this() {
+  last_of_connection = true;
+}
+
+void BoundedServer::come() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  book_.come();
+  make_room();
+}
+
+void BoundedServer::wait(socket_t socket, LocalTime since) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  book_.wait(socket, since);
+  make_room();
+}
+
+void BoundedServer::go_on(socket_t socket) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  book_.go_on(socket);
+}
+
+/// Who is sent away finds that nothing more comes; what he is owed he still gets.
+void BoundedServer::make_room() {
+  for (const int socket : book_.send_away()) ::shutdown(socket, SHUT_RD);
 }
 
 bool BoundedServer::admit(socket_t socket) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  book_.enter(socket);
   if (!ended_) open_.insert(socket);
   return !ended_;
 }
@@ -113,6 +187,7 @@ bool BoundedServer::admit(socket_t socket) {
 void BoundedServer::leave(socket_t socket) {
   const std::lock_guard<std::mutex> lock(mutex_);
   open_.erase(socket);
+  book_.leave(socket);
   ::shutdown(socket, SHUT_RDWR);
   ::close(socket);  // within the lock: from now on another connection may have its number
   left_.notify_all();
@@ -134,8 +209,9 @@ bool BoundedServer::process_and_close_socket(socket_t socket) {
 }
 
 bool BoundedServer::serve(socket_t socket) {
-  BoundedStream stream(socket, bounds_);
+  Stream stream(socket, *this);
   bool good = false;
+  last_of_connection = false;
   for (int left = bounds_.requests_per_connection; left > 0 && is_running() && stream.begin_request(); --left) {
     bool closed = false;
 #ifdef CPPHTTPLIB_SERVER_READ_TIMEOUT_SECOND  // 0.18, Debian 13; before that it asked the stream for the addresses
@@ -148,8 +224,9 @@ bool BoundedServer::serve(socket_t socket) {
 #else
     good = process_request(stream, left == 1, closed, nullptr);
 #endif
-    if (!good || closed) break;
+    if (!good || closed || last_of_connection) break;
   }
+  stream.part();
   return good;
 }
 

@@ -5,6 +5,7 @@
 
 #include "common/base/text.hpp"
 #include "common/dds/clock.hpp"
+#include "ground/page/core/door.hpp"
 
 namespace gyre::ground {
 namespace {
@@ -23,10 +24,17 @@ std::string fresh_token() {
 
 std::vector<program::Option> page_options(PageOptions& options) {
   return {
-      {"--address", &options.address, "where to serve the page; 0.0.0.0: to every network this machine is in"},
+      {"--address", &options.address,
+       "where to serve the page (else 127.0.0.1); 0.0.0.0: to every network this machine is in"},
       {"--port", &options.port, "its port (else the first free one from 8480 on); 0: any", program::Bounds{0, 65535}},
       {"--token", &options.token, "what orders have to show (else a new one, in the address that is printed)"},
       {"--host", &options.hosts, "a name by which browsers call this machine, beside its addresses"}};
+}
+
+std::optional<std::string> objection(const PageOptions& options) {
+  if (!options.token || is_token(*options.token)) return std::nullopt;
+  return "--token: it stands in an address, so it has 1 to 128 letters, digits, or - . _ ~, and nothing else; without "
+         "--token one is made";
 }
 
 Page::Page(std::unique_ptr<PageServer> server, const PageOwner& owner, dds::Node* node, const SwarmView& view)
@@ -37,10 +45,11 @@ Page::Page(std::unique_ptr<PageServer> server, const PageOwner& owner, dds::Node
 
 Result<std::unique_ptr<Page>> Page::open(const PageOptions& options, const PageOwner& asked, dds::Node* node,
                                          const SwarmView& view) {
+  if (const auto why = objection(options)) return Error{*why};
   PageServerOptions served;
-  served.address = options.address;
+  served.address = options.address.value_or(served.address);
   served.port = options.port;
-  served.token = options.token.empty() ? fresh_token() : options.token;
+  served.token = options.token ? *options.token : fresh_token();
   served.hosts = options.hosts;
   served.takes_orders = asked.takes_orders;
   auto server = PageServer::open(served);

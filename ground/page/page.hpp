@@ -16,11 +16,17 @@ namespace gyre::ground {
 
 /// Where it is served, from the command line.
 struct PageOptions {
-  std::string address = "127.0.0.1";
+  std::optional<std::string> address;  ///< absent: of this machine only
   std::optional<int> port;
-  std::string token;  ///< empty: one is made
+  std::optional<std::string> token;  ///< absent: one is made
   std::vector<std::string> hosts;
+
+  /// Whether any of them was given.
+  [[nodiscard]] bool any() const { return address || port || token || !hosts.empty(); }
 };
+
+/// What is wrong with them, and what would be right.
+[[nodiscard]] std::optional<std::string> objection(const PageOptions& options);
 
 /// --address, --port, --token, --host.
 [[nodiscard]] std::vector<program::Option> page_options(PageOptions& options);
@@ -33,8 +39,8 @@ struct HurtTask {
 
 class Page {
  public:
-  /// `node`, over which orders go (nullptr: there is nobody to give them to), and `view` outlive it. Errors as
-  /// PageServer::open.
+  /// `node`, over which orders go (nullptr: there is nobody to give them to), and `view` outlive it. Errors: an
+  /// objection to the options, or as PageServer::open.
   [[nodiscard]] static Result<std::unique_ptr<Page>> open(const PageOptions& options, const PageOwner& owner,
                                                           dds::Node* node, const SwarmView& view);
 

@@ -6,6 +6,7 @@
 #include "common/base/text.hpp"
 #include "common/mechanics/certificate.hpp"
 #include "common/mission/mission.hpp"
+#include "common/protocol/disturbance.hpp"
 #include "ground/check/certificate_table.hpp"
 #include "ground/page/core/utf8.hpp"
 #include "ground/page/protobuf_json.hpp"
@@ -15,7 +16,6 @@ namespace gyre::ground {
 namespace {
 
 constexpr double kMostForce_n = 1e6;
-constexpr double kLongestPush_s = 10.0;
 
 bool within(double amount, double most) {
   return std::isfinite(amount) && amount >= 0.0 && amount <= most;
@@ -105,7 +105,8 @@ Result<HurtRequest> hurt_of(const std::string& json) {
   if (asked.force_w_n_size() != 3) return Error{"force_w_n: three numbers, newtons in the world's axes"};
   request.force_w_n = {asked.force_w_n(0), asked.force_w_n(1), asked.force_w_n(2)};
   if (!within(request.force_w_n.norm(), kMostForce_n)) return Error{"force_w_n: at most a meganewton"};
-  if (!within(request.duration_s, kLongestPush_s)) return Error{"duration_s: 0 to 10 s"};
+  const double longest_s = seconds(protocol::kLongestPush);
+  if (!within(request.duration_s, longest_s)) return Error{text("duration_s: 0 to %.0f s", longest_s)};
   return request;
 }
 

@@ -18,8 +18,6 @@ using httplib::Request;
 using httplib::Response;
 using Handled = httplib::Server::HandlerResponse;
 
-/// Threads for what is short beside those that watch.
-constexpr std::size_t kShortRequests = 16;
 /// Longer than an order may take (OrderDesk).
 constexpr auto kAnswerPatience = std::chrono::seconds(25);
 /// Whoever holds the promise may not know that the server ends.
@@ -27,6 +25,8 @@ constexpr auto kEndIsSeen = std::chrono::milliseconds(100);
 /// A stream that has nothing to say says so, or what lies between closes it.
 constexpr Duration kStillThere = std::chrono::seconds(5);
 constexpr Duration kLook = std::chrono::seconds(1);
+
+static_assert(ServerBounds{}.places > kMostWatchers, "who looks on leaves places for what is short");
 
 constexpr const char* kTheServerEnds = "the server ends";
 constexpr const char* kNoPage =
@@ -61,6 +61,7 @@ struct PageServer::Impl {
   explicit Impl(const PageServerOptions& asked) : options(asked), server(asked.bounds) {}
 
   void route();
+  [[nodiscard]] bool may_be_routed(const Request& request, Response& response) const;
   [[nodiscard]] bool admits(const Request& request, Response& response);
   void events(Response& response);
   void ask(Response& response, std::variant<protocol::Command, HurtRequest> wish);
@@ -101,22 +102,35 @@ bool PageServer::Impl::admits(const Request& request, Response& response) {
   return false;
 }
 
+/// Otherwise it is answered.
+bool PageServer::Impl::may_be_routed(const Request& request, Response& response) const {
+  if (!is_own_host(request.get_header_value("Host"), options.hosts)) {
+    refuse(response, 403, "open this page by an address of the machine, or name the machine to the server with --host");
+    return false;
+  }
+  if (request.has_header("Content-Encoding")) {  // a few bytes could become more than there is memory
+    refuse(response, 415, "send it as it is, not compressed");
+    return false;
+  }
+  if (request.has_header("Range")) {  // a few of them could ask for the same bytes a thousand times
+    refuse(response, 416, "ask for the whole of it");
+    return false;
+  }
+  const std::vector<std::string> allowed = allowed_methods(request.path);
+  if (allowed.empty()) return true;  // there is nothing, which the router says
+  if (std::find(allowed.begin(), allowed.end(), request.method) != allowed.end()) return true;
+  response.set_header("Allow", allow_header(request.path));
+  refuse(response, 405, refusal_words(405, request.path, options.bounds.request_bytes));
+  return false;
+}
+
 void PageServer::Impl::route() {
   server.set_pre_routing_handler([this](const Request& request, Response& response) {
-    if (!is_own_host(request.get_header_value("Host"), options.hosts)) {
-      refuse(response, 403,
-             "open this page by an address of the machine, or name the machine to the server with --host");
-      return Handled::Handled;
-    }
-    if (request.has_header("Content-Encoding")) {  // a few bytes could become more than there is memory
-      refuse(response, 415, "send it as it is, not compressed");
-      return Handled::Handled;
-    }
-    if (request.has_header("Range")) {  // a few of them could ask for the same bytes a thousand times
-      refuse(response, 416, "ask for the whole of it");
-      return Handled::Handled;
-    }
-    return Handled::Unhandled;
+    const bool in_order = may_be_routed(request, response);
+    // Whoever asks for something with a body that is not read might have written his next request into it.
+    const bool has_body = request.has_header("Content-Length") || request.has_header("Transfer-Encoding");
+    if (has_body && (!in_order || request.method != "POST")) BoundedServer::close_after_this();
+    return in_order ? Handled::Unhandled : Handled::Handled;
   });
   httplib::Headers headers{{"X-Content-Type-Options", "nosniff"},
                            {"X-Frame-Options", "DENY"},
@@ -124,8 +138,9 @@ void PageServer::Impl::route() {
                            {"Cross-Origin-Resource-Policy", "same-origin"},
                            {"Cache-Control", "no-store"}};
   server.set_default_headers(std::move(headers));
-  server.set_error_handler([](const Request&, Response& response) {
-    if (response.body.empty()) refuse(response, response.status, text("status %d", response.status));
+  server.set_error_handler([this](const Request& request, Response& response) {
+    if (!response.body.empty()) return;
+    refuse(response, response.status, refusal_words(response.status, request.path, options.bounds.request_bytes));
   });
   server.set_exception_handler([](const Request&, Response& response, std::exception_ptr) {  // NOLINT: its signature
     refuse(response, 500, "the server could not work with that");
@@ -231,7 +246,6 @@ Result<std::unique_ptr<PageServer>> PageServer::open(const PageServerOptions& op
   GYRE_ENSURE(!options.token.empty(), "orders need a token");
   auto impl = std::make_unique<Impl>(options);
   httplib::Server& server = impl->server;
-  server.new_task_queue = [] { return new httplib::ThreadPool(kMostWatchers + kShortRequests); };
   server.set_tcp_nodelay(true);
   // Its own default would let a second server take the same port, and each of them half of the browsers.
   socket_t bound = INVALID_SOCKET;
@@ -258,7 +272,7 @@ Result<std::unique_ptr<PageServer>> PageServer::open(const PageServerOptions& op
   }
   // It lets five wait to be taken in, and browsers come with more connections than that: the others would begin anew
   // after a second.
-  ::listen(bound, kMostWatchers + static_cast<int>(kShortRequests));
+  ::listen(bound, static_cast<int>(options.bounds.places));
   server.set_socket_options(nullptr);
   impl->listening = std::thread([raw = impl.get()] { raw->server.listen_after_bind(); });
   while (!server.is_running()) std::this_thread::yield();  // one that does not run yet cannot be stopped

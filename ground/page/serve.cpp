@@ -22,6 +22,10 @@ struct ServeOptions {
 
 int serve(const ServeOptions& options) {
   block_interrupts();
+  if (const auto why = objection(options.page)) {
+    log_error(*why);
+    return program::kBadUsage;
+  }
   if (const auto answer = program::start("gyre serve", options.common)) return *answer;
   const auto opened = program::open_node(options.common.network, ground_seat(options.common.network));
   if (!opened) return opened.error();

@@ -12,6 +12,7 @@ struct ServerBounds {
   std::chrono::milliseconds idle_time{5'000};  ///< between two requests of one connection
   std::chrono::milliseconds write_time{5'000};
   std::chrono::milliseconds last_words{300};  ///< for answers that are on their way when the server ends
+  std::size_t places = 116;                   ///< connections at once: a hundred that watch, and some for what is short
   int requests_per_connection = 100;
 };
 

@@ -92,6 +92,7 @@ int record(const RecordOptions& options) {
     log_error(file.error().text);
     return program::kBadUsage;
   }
+  const FilePlace place(path);
   // Handlers push until the node is gone, which is before the recording is finished.
   Recorder recorder(std::move(file).value(), begin,
                     {{"domain", std::to_string(node->domain())}, {"begin", utc(begin.wall_ns, "%Y-%m-%dT%H:%M:%SZ")}},
@@ -101,15 +102,19 @@ int record(const RecordOptions& options) {
   log_info("recording to " + path);
 
   const LocalTime end = options.duration_s ? begin.local + from_seconds(*options.duration_s) : LocalTime::max();
+  std::optional<std::string> loss;
   while (take_interrupts().total() == 0 && dds::now() < end) {
     attendance.attend(recorder.carriers());
+    if (!loss && (loss = place.loss())) log_warning(*loss);
     std::this_thread::sleep_for(kBeat);
   }
   node.reset();
   const Recorder::End told = recorder.finish();
   std::printf("%s", told.table.c_str());
-  log(told.complete ? Notice::Level::kInfo : Notice::Level::kWarning, path + ": " + told.line);
-  return told.complete ? program::kGood : program::kFailed;
+  const bool good = told.complete && !place.loss();
+  log(good ? Notice::Level::kInfo : Notice::Level::kWarning, path + ": " + told.line);
+  if (const auto lost = place.loss(); lost && lost != loss) log_warning(*lost);
+  return good ? program::kGood : program::kFailed;
 }
 
 }  // namespace

@@ -113,6 +113,31 @@ std::optional<Error> RecordingFile::append(const Bytes& piece) {
   return std::nullopt;
 }
 
+FilePlace::FilePlace(std::string path)
+    : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_PATH | O_CLOEXEC)) {}
+
+FilePlace::~FilePlace() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+std::optional<std::string> FilePlace::loss() const {
+  struct stat made {
+  }, found{};
+  if (descriptor_ < 0 || ::fstat(descriptor_, &made) != 0 || made.st_nlink == 0) {
+    return path_ +
+           " was deleted: what is written goes into a file without a name, and is gone when this program ends; "
+           "end it and record anew";
+  }
+  if (::stat(path_.c_str(), &found) != 0) {
+    return path_ + " is not there any more (" + std::strerror(errno) +
+           "): it was moved, or its file system was; what is written goes to wherever it is now";
+  }
+  if (found.st_dev == made.st_dev && found.st_ino == made.st_ino) return std::nullopt;
+  return path_ +
+         " is another file by now: the one that is written into was moved, or another file system was mounted "
+         "over it, and goes on growing there";
+}
+
 Result<std::unique_ptr<McapSource>> open_recording(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return Error{path + ": " + std::strerror(errno)};

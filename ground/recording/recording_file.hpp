@@ -37,6 +37,26 @@ class RecordingFile {
   bool unclean_ = false;  // more is in the file than counts
 };
 
+/// Where a file was made, and whether it is still there. One that was deleted takes every byte all the same, and so
+/// does one that something was mounted over: only who looks at the place notices.
+class FilePlace {
+ public:
+  /// Of a file that is there now.
+  explicit FilePlace(std::string path);
+  FilePlace(FilePlace&&) = delete;
+  FilePlace& operator=(FilePlace&&) = delete;
+  FilePlace(const FilePlace&) = delete;
+  FilePlace& operator=(const FilePlace&) = delete;
+  ~FilePlace();
+
+  /// What became of it, and what that means for who writes on; absent: it is there.
+  [[nodiscard]] std::optional<std::string> loss() const;
+
+ private:
+  std::string path_;
+  int descriptor_;  // of the file, whatever it is called by now
+};
+
 /// A file to read; as long as it was when it was opened.
 [[nodiscard]] Result<std::unique_ptr<McapSource>> open_recording(const std::string& path);
 

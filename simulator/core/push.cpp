@@ -3,20 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/text.hpp"
+#include "common/protocol/disturbance.hpp"
 
 namespace gyre::simulator {
 
 std::optional<std::string> Push::objection(const Eigen::Vector3d& force_w_n, Duration duration) const {
-  // Not a > b, which would let through what is no number.
-  if (!(force_w_n.norm() <= weight_n_)) {
-    return text("a push of %.4g N; the load weighs %.4g N, and is pushed by no more", force_w_n.norm(), weight_n_);
-  }
-  if (duration <= Duration::zero() || duration > kLongestPush) {
-    return text("a push of %.4g s; the load is pushed for more than 0 and at most %.0f s", seconds(duration),
-                seconds(kLongestPush));
-  }
-  return std::nullopt;
+  return protocol::objection_to_push(force_w_n, duration, weight_n_);
 }
 
 void Push::begin(LocalTime arrived, const Eigen::Vector3d& force_w_n, Duration duration) {

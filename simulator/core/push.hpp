@@ -19,9 +19,6 @@
 
 namespace gyre::simulator {
 
-/// Of a push; of its strength, the load's weight is.
-inline constexpr Duration kLongestPush = std::chrono::seconds(10);
-
 class Push {
  public:
   Push(double weight_n, Duration tick) : weight_n_(weight_n), tick_(tick) {}

@@ -118,6 +118,12 @@ TEST(BadUsage, IsTwoWithAMessageAndNoOutput) {
       {"release --phase 361", "--phase"},
       {"release --phase north", "--phase"},
       {"engage now", "now"},
+      {"record -o ''", "--output: an empty word says nothing; give it a value"},
+      {"serve --token ''", "--token: an empty word"},
+      {"serve --token 'a b'", "--token: it stands in an address"},
+      {"fly --port 8480 " + shipped("paper"), "give --page, too"},
+      {"fly --token secret " + shipped("paper"), "give --page, too"},
+      {"fly --page --token 'a%20b' " + shipped("paper"), "--token: it stands in an address"},
   };
   for (const auto& bad : cases) {
     const Answer answer = gyre(bad.arguments);

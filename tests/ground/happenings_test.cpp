@@ -116,11 +116,11 @@ TEST_F(HappeningsTest, SilenceIsToldWhenItBeginsAndWhenItEnds) {
   swarm_.status.silent = {2};
   tell(swarm_.status);
   tell(swarm_.status);
-  EXPECT_THAT(news(), ElementsAre("coordinator: agent 2 is silent"));
+  EXPECT_THAT(news(), ElementsAre("agent 2: is silent"));
   EXPECT_EQ(level_, Level::kWarning);
   swarm_.status.silent.clear();
   tell(swarm_.status);
-  EXPECT_THAT(news(), ElementsAre("coordinator: agent 2 is heard again"));
+  EXPECT_THAT(news(), ElementsAre("agent 2: is heard again"));
   swarm_.pass(kStreamSilence + milliseconds(1));
   happenings_.look(swarm_.now);
   happenings_.look(swarm_.now);
@@ -132,6 +132,53 @@ TEST_F(HappeningsTest, SilenceIsToldWhenItBeginsAndWhenItEnds) {
   tell(HeardSwarm::health("simulator"));
   tell_all();
   EXPECT_THAT(news(), ElementsAre("coordinator: is heard again", "simulator: is heard again"));
+}
+
+TEST_F(HappeningsTest, ASilenceThatShowsInSeveralPlacesIsToldOnce) {
+  tell(HeardSwarm::health("agent 2"));
+  tell_all();
+  news();
+  swarm_.status.silent = {2};
+  swarm_.status.news = "agent 2 is silent";
+  tell(swarm_.status);
+  EXPECT_THAT(news(), ElementsAre("agent 2: is silent")) << "in the coordinator's list and its news";
+  const auto pass = [this] {
+    swarm_.pass(kWordSilence + milliseconds(1));
+    tell(swarm_.beacon);
+    tell(swarm_.status);
+    happenings_.look(swarm_.now);
+  };
+  pass();
+  EXPECT_THAT(news(), ElementsAre()) << "and then its word is missing, too";
+  swarm_.status.silent.clear();
+  swarm_.status.news = "agent 2 is here";
+  tell(swarm_.status);
+  EXPECT_THAT(news(), ElementsAre()) << "nor is it heard again before all hear it";
+  tell(HeardSwarm::health("agent 2"));
+  happenings_.look(swarm_.now);
+  EXPECT_THAT(news(), ElementsAre("agent 2: is heard again"));
+  pass();
+  EXPECT_THAT(news(), ElementsAre("agent 2: is silent")) << "only here";
+  swarm_.status.silent = {2};
+  tell(swarm_.status);
+  EXPECT_THAT(news(), ElementsAre());
+}
+
+TEST_F(HappeningsTest, AnAgentThatBeganAnewIsToldOnce) {
+  tell_all();
+  news();
+  swarm_.pass(seconds(2));
+  swarm_.agents.at(2).incarnation = 55;
+  swarm_.status.news = "agent 2 was restarted";
+  for (int i = 0; i < 20; ++i) {
+    tell(swarm_.status);
+    tell(swarm_.agents.at(2));
+    swarm_.pass(milliseconds(100));
+  }
+  EXPECT_THAT(news(), ElementsAre("agent 2: began anew: here, pid 1002", "agent 2: is flying"));
+  swarm_.status.news = "agent 7 was restarted";
+  tell(swarm_.status);
+  EXPECT_THAT(news(), ElementsAre("coordinator: agent 7 was restarted")) << "nobody whom it leads";
 }
 
 TEST_F(HappeningsTest, AComplaintThatComesUpAndIsSettled) {

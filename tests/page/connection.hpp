@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -89,6 +90,13 @@ class Connection {
     (void)read_some();
     return std::exchange(got_, {}).size();
   }
+  /// Whether it was reset, upon which many a system forgets what came before; also if that came after the end.
+  [[nodiscard]] bool was_reset() const {
+    int error = 0;
+    socklen_t length = sizeof error;
+    (void)::getsockopt(socket_, SOL_SOCKET, SO_ERROR, &error, &length);
+    return reset_ || error != 0;
+  }
   [[nodiscard]] const std::string& got() const { return got_; }
   void forget() { got_.clear(); }
 
@@ -98,6 +106,7 @@ class Connection {
     std::array<char, 65536> buffer{};
     const ssize_t count = ::recv(socket_, buffer.data(), buffer.size(), 0);
     ended_ = count <= 0;  // a reset is an end, too
+    reset_ = count < 0 && errno == ECONNRESET;
     if (ended_) return false;
     got_.append(buffer.data(), static_cast<std::size_t>(count));
     return true;
@@ -106,6 +115,7 @@ class Connection {
   int socket_;
   bool open_ = false;
   bool ended_ = false;
+  bool reset_ = false;
   std::string got_;
 };
 

@@ -75,6 +75,32 @@ TEST_F(ServerTest, AWatcherGetsWhatIsOnTheStageAndThenWhatIsNew) {
   }
 }
 
+TEST_F(ServerTest, WhatIsNotThereIsSaidInWords) {
+  serve();
+  const Reply nowhere = ask(get("/nowhere"));
+  EXPECT_EQ(nowhere.status, 404);
+  EXPECT_THAT(words(nowhere), HasSubstr("nothing at /nowhere: the page is at /"));
+  EXPECT_THAT(words(ask(post("/api/nothing", "{}"))), HasSubstr("nothing at /api/nothing"));
+}
+
+TEST_F(ServerTest, AMethodThatAPathIsNotForIsToldTheOthers) {
+  serve();
+  for (const char* target : {"/", "/api/events", "/api/time", "/metrics"}) {
+    const Reply reply = ask(post(target, kEngage));
+    EXPECT_EQ(reply.status, 405) << target;
+    EXPECT_THAT(reply.head, HasSubstr("\r\nAllow: GET, HEAD\r\n")) << target;
+    EXPECT_EQ(words(reply), std::string(target) + " is there for GET, HEAD only");
+  }
+  for (const char* target : {"/api/order", "/api/check", "/api/hurt"}) {
+    const Reply reply = ask(get(target));
+    EXPECT_EQ(reply.status, 405) << target;
+    EXPECT_THAT(reply.head, HasSubstr("\r\nAllow: POST\r\n")) << target;
+  }
+  Reply head = ask("HEAD /api/time HTTP/1.1\r\nHost: " + host() + "\r\nConnection: close\r\n\r\n");
+  EXPECT_EQ(head.status, 200);
+  EXPECT_EQ(head.body, "");
+}
+
 TEST_F(ServerTest, TellsItsTimeAndItsFigures) {
   serve();
   const double before_s = json::parse(ask(get("/api/time")).body)["server_time_s"];
@@ -160,7 +186,7 @@ TEST_F(ServerTest, ForeignPagesGetNothingDone) {
   EXPECT_EQ(ask("OPTIONS /api/order HTTP/1.1\r\nHost: " + host() +
                 "\r\nOrigin: http://evil.example\r\nAccess-Control-Request-Method: POST\r\nConnection: close\r\n\r\n")
                 .status,
-            404)
+            405)
       << "a browser that asks first is not told that it may";
   EXPECT_TRUE(server_->take_requests().empty());
   auto own = std::async(std::launch::async,

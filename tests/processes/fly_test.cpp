@@ -117,7 +117,7 @@ TEST_F(FlyTest, AskedTwiceItEndsAtOnce) {
   ASSERT_TRUE(flight.says_within(10.0, "releasing")) << flight.said();
   flight.send(SIGINT);
   EXPECT_EQ(flight.end_within(5.0).exit_code, 1);
-  EXPECT_THAT(flight.said(), HasSubstr("at once"));
+  EXPECT_THAT(flight.said(), HasSubstr("at once, as asked: the load was not brought to rest.\nAll logs: "));
 }
 
 TEST_F(FlyTest, AReleaseFromOutsideEndsTheFlightWell) {

@@ -75,6 +75,12 @@ TEST_F(PageTest, AFlightIsShownOrderedHurtAndEnded) {
   EXPECT_EQ(slower["done"], true) << slower;
   EXPECT_TRUE(stream.until("frame", paced(0.49, 0.51))) << flight.said();
 
+  for (const json& wish : {json{{"kind", "PUSH"}, {"force_w_n", {0.0, 0.0, 1000.0}}, {"duration_s", 0.5}},
+                           json{{"kind", "SHIFT_CLOCK"}, {"process", "agent 2"}, {"amount", -100.0}},
+                           json{{"kind", "CONTINUE"}, {"process", "agent 2"}}}) {
+    const json refused = ask(page, "/api/hurt", wish);
+    EXPECT_EQ(refused["done"], false) << refused << ": what its process would refuse, or does as it is";
+  }
   const json killed = ask(page, "/api/hurt", {{"kind", "KILL"}, {"process", "agent 2"}});
   EXPECT_EQ(killed["done"], true) << killed;
   const auto ended = stream.until("status", [&](const json& s) { return process(s, "agent 2")["state"] == "ended"; });

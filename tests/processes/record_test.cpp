@@ -182,5 +182,18 @@ TEST_F(RecordTest, WhatCannotBeWrittenIsBadUsage) {
   EXPECT_EQ(said["messages"], 0);
 }
 
+TEST_F(RecordTest, AFileThatIsDeletedMeanwhileIsSaidOnceAndTheRecordingGoesOn) {
+  const std::string path = directory() + "/deleted.mcap";
+  Launched record = recorder(path);
+  std::filesystem::remove(path);
+  EXPECT_TRUE(record.says_within(kFlight_s, path + " was deleted")) << record.said();
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  record.send(SIGTERM);
+  EXPECT_EQ(record.end_within(10.0).exit_code, 1) << record.said();
+  const std::string said = record.said();
+  EXPECT_EQ(said.find(" was deleted"), said.rfind(" was deleted")) << said;
+  EXPECT_THAT(said, HasSubstr("0 messages")) << "and it has ended in order";
+}
+
 }  // namespace
 }  // namespace gyre::test

@@ -101,6 +101,24 @@ TEST_F(OptionsTest, RefuseWhatIsOutOfBoundsAndWhatIsNoNumber) {
   EXPECT_EQ(run({program::own({{"--number", &number, "", program::Bounds{-1.0, 9.0}}})}, {"--number", "9"}), 0);
 }
 
+TEST_F(OptionsTest, AnEmptyWordIsRefusedByHandAndNoneFromTheEnvironment) {
+  std::string word = "as before";
+  std::optional<std::string> perhaps;
+  std::vector<std::string> several;
+  const std::vector<program::OptionGroup> groups{
+      program::own({{"--word", &word, ""}, {"--perhaps", &perhaps, ""}, {"--several", &several, ""}})};
+  set("GYRE_WORD", "");
+  EXPECT_EQ(run(groups, {}), 0);
+  EXPECT_EQ(word, "as before") << "containers set variables to nothing";
+  for (const char* option : {"--word", "--perhaps", "--several"}) {
+    ::testing::internal::CaptureStderr();
+    EXPECT_EQ(run(groups, {option, ""}), program::kBadUsage) << option;
+    const std::string said = ::testing::internal::GetCapturedStderr();
+    EXPECT_NE(said.find(option), std::string::npos) << said;
+    EXPECT_NE(said.find("give it a value, or leave it out"), std::string::npos) << said;
+  }
+}
+
 TEST_F(OptionsTest, AWordTakenByHandIsNotReadFromTheEnvironment) {
   std::string word;
   set("GYRE_WORD", "of the environment");

@@ -14,6 +14,7 @@
 namespace gyre::tests {
 namespace {
 
+using ground::FilePlace;
 using ground::RecordingFile;
 using testing::HasSubstr;
 
@@ -89,6 +90,26 @@ TEST_F(RecordingFileTest, APieceIsWholeOrNotThereAtAll) {
   ASSERT_TRUE(source.value()->read(998, end.size(), end.data()));
   EXPECT_EQ(end, (Bytes{1, 1, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3}));
   EXPECT_FALSE(source.value()->read(1009, 2, end.data()));
+}
+
+TEST_F(RecordingFileTest, OneThatIsNotWhereItWasMadeIsNoticed) {
+  const std::string path = directory + "/flight.mcap";
+  auto made = RecordingFile::create(path, RecordingFile::Existing::kRefuse);
+  ASSERT_TRUE(made.ok());
+  RecordingFile file = std::move(made).value();
+  const FilePlace place(path);
+  EXPECT_FALSE(place.loss());
+  ASSERT_FALSE(file.append(Bytes(1000, 1)));
+  EXPECT_FALSE(place.loss()) << "it only grew";
+  std::filesystem::rename(path, directory + "/elsewhere.mcap");
+  EXPECT_THAT(place.loss().value_or(""), testing::AllOf(HasSubstr(path), HasSubstr("not there any more")));
+  std::ofstream(path) << "of somebody else";
+  EXPECT_THAT(place.loss().value_or(""), HasSubstr("another file by now"));
+  std::filesystem::rename(directory + "/elsewhere.mcap", path);
+  EXPECT_FALSE(place.loss()) << "and back";
+  std::filesystem::remove(path);
+  EXPECT_THAT(place.loss().value_or(""), testing::AllOf(HasSubstr("was deleted"), HasSubstr("record anew")));
+  EXPECT_FALSE(file.append(Bytes(1000, 2))) << "which no writer is told";
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/protocol/disturbance.hpp"
 #include "simulator/core/simulator.hpp"
 #include "tests/simulator/rigs.hpp"
 
@@ -67,13 +68,13 @@ TEST(Push, IsRefusedBeyondTheWeightAndBeyondTheTime) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Push push(kWeight_n, kTick);
-  EXPECT_FALSE(push.objection({0.0, 0.0, kWeight_n}, kLongestPush));
+  EXPECT_FALSE(push.objection({0.0, 0.0, kWeight_n}, protocol::kLongestPush));
   for (const double wrong : {1.01 * kWeight_n, -1.01 * kWeight_n, kNan, kInfinity}) {
     const auto why = push.objection({0.0, wrong, 0.0}, seconds(1));
     ASSERT_TRUE(why) << wrong;
     EXPECT_NE(why->find("weighs 2.943 N"), std::string::npos) << *why;
   }
-  for (const Duration wrong : {Duration{}, Duration(-1), kLongestPush + Duration(1), Duration::max()}) {
+  for (const Duration wrong : {Duration{}, Duration(-1), protocol::kLongestPush + Duration(1), Duration::max()}) {
     EXPECT_TRUE(push.objection({1.0, 0.0, 0.0}, wrong));
   }
 }
@@ -156,7 +157,7 @@ TEST_F(PushedLoad, IsHeldInTheEndWhereTheForceAndTheCablesBalance) {
 TEST_F(PushedLoad, SurvivesTheStrongestPushAnyWay) {
   Duration at{};
   for (const Eigen::Vector3d& way : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, -1, 0)}) {
-    (void)simulator_->step(kStart + at, Pushed{kWeight_n * way, kLongestPush});
+    (void)simulator_->step(kStart + at, Pushed{kWeight_n * way, protocol::kLongestPush});
     at += seconds(15);
     advance_to(at);
   }

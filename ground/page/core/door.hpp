@@ -15,6 +15,11 @@
 
 namespace gyre::ground {
 
+/// Whether this can be one: letters, digits, - . _ ~ (RFC 3986, unreserved), at most 128 of them. It stands in an
+/// address and in a header, where other characters would have to be written as something else; and who writes them
+/// otherwise than the next one has another token.
+[[nodiscard]] bool is_token(std::string_view words);
+
 /// Takes as long whatever is wrong with it.
 [[nodiscard]] bool same_token(std::string_view told, std::string_view token);
 
@@ -24,6 +29,15 @@ namespace gyre::ground {
 
 /// Of an Origin header, "http://127.0.0.1:8480": whether it is the host's own page; an empty one is no browser's.
 [[nodiscard]] bool is_same_origin(std::string_view origin, std::string_view host);
+
+/// What a path is for: "GET" and "HEAD", or "POST"; nothing: there is no such path.
+[[nodiscard]] std::vector<std::string> allowed_methods(std::string_view path);
+/// As the header Allow says it: "GET, HEAD".
+[[nodiscard]] std::string allow_header(std::string_view path);
+
+/// Why a request got nothing, and what would be right, by the status of the answer; for what no handler has words for.
+/// `request_bytes`: the most that one may have.
+[[nodiscard]] std::string refusal_words(int status, std::string_view path, std::size_t request_bytes);
 
 /// So many at once, and so many a second.
 class RateJudge {

@@ -16,6 +16,12 @@ std::string agent_name(CarrierId id) {
   return text("agent %u", id);
 }
 
+/// Absent: this is the name of nobody who carries.
+std::optional<CarrierId> carrier_called(const std::string& name, const std::vector<CarrierId>& ids) {
+  const auto found = std::find_if(ids.begin(), ids.end(), [&](CarrierId id) { return agent_name(id) == name; });
+  return found == ids.end() ? std::nullopt : std::optional<CarrierId>(*found);
+}
+
 /// Persons who ask at once say their words in turns, so the last one is not enough to know.
 bool first_time(std::deque<std::uint64_t>& told, std::uint64_t id) {
   constexpr std::size_t kAtOnce = 64;
@@ -64,6 +70,11 @@ void Happenings::look(LocalTime now) {
     if (silent == known.silent) continue;
     known.silent = silent;
     if (name == "coordinator") continue;  // told above, and sooner
+    if (const auto id = carrier_called(name, view_.carrier_ids())) {
+      agents_[*id].wordless = silent;
+      tell_silence(now, *id, agents_[*id]);
+      continue;
+    }
     tell(now, silent ? Level::kWarning : Level::kInfo, name, silent ? "is not heard" : "is heard again");
   }
 }
@@ -74,16 +85,30 @@ void Happenings::on(LocalTime now, const protocol::CoordinatorStatus& status) {
          text("leads \"%s\" in term %llu", status.mission.c_str(), protocol::generation(status.term)));
     term_ = status.term;
   }
-  if (status.news != news_ && !status.news.empty()) tell(now, Level::kInfo, "coordinator", status.news);
+  const bool news = status.news != news_ && !status.news.empty() && !told_otherwise(status.news);
+  if (news) tell(now, Level::kInfo, "coordinator", status.news);
   news_ = status.news;
   for (const CarrierId id : view_.carrier_ids()) {
     Agent& agent = agents_[id];
-    const bool silent = view_.named_silent(id);
-    if (silent == agent.silent) continue;
-    agent.silent = silent;
-    tell(now, silent ? Level::kWarning : Level::kInfo, "coordinator",
-         agent_name(id) + (silent ? " is silent" : " is heard again"));
+    agent.named_silent = view_.named_silent(id);
+    tell_silence(now, id, agent);
   }
+}
+
+void Happenings::tell_silence(LocalTime now, CarrierId id, Agent& agent) {
+  const bool silent = agent.named_silent || agent.wordless;
+  if (silent == agent.told_silent) return;
+  agent.told_silent = silent;
+  tell(now, silent ? Level::kWarning : Level::kInfo, agent_name(id), silent ? "is silent" : "is heard again");
+}
+
+/// Who comes, goes and begins anew is seen here as well, by who speaks and by whom the coordinator names silent.
+bool Happenings::told_otherwise(const std::string& news) const {
+  const std::vector<CarrierId> ids = view_.carrier_ids();
+  return std::any_of(ids.begin(), ids.end(), [&](CarrierId id) {
+    const std::string who = agent_name(id);
+    return news == who + " is silent" || news == who + " is here" || news == who + " was restarted";
+  });
 }
 
 void Happenings::on(LocalTime now, const protocol::AgentStatus& status) {

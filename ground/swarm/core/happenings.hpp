@@ -58,12 +58,17 @@ class Happenings {
     std::uint64_t incarnation = 0;
     protocol::AgentState state = protocol::AgentState::kWaiting;
     protocol::PlanNumber refused;
-    bool silent = false;
+    bool named_silent = false;  ///< by the coordinator
+    bool wordless = false;      ///< nothing is heard of how it is
+    bool told_silent = false;
   };
   struct Process {
     bool complained = false;
     bool silent = false;
   };
+  /// Its silence shows in several places, and is told once: when the first of them shows it, and when none does.
+  void tell_silence(LocalTime now, CarrierId id, Agent& agent);
+  [[nodiscard]] bool told_otherwise(const std::string& news) const;
 
   const SwarmView& view_;
   std::deque<Happening> all_;

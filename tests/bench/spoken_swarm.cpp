@@ -26,6 +26,14 @@ protocol::Setpoint setpoint_of(const protocol::CarrierState& state, std::uint64_
   return setpoint;
 }
 
+/// As full as pieces are, of bytes that no two have alike.
+protocol::JournalPiece piece_of(const protocol::CarrierState& state, std::uint64_t tick) {
+  protocol::JournalPiece piece{"agent " + std::to_string(state.carrier), 1, tick * protocol::kMaxJournalBytes, {}};
+  piece.bytes.resize(protocol::kMaxJournalBytes);
+  for (std::size_t i = 0; i < piece.bytes.size(); ++i) piece.bytes[i] = static_cast<std::uint8_t>((tick * i) >> 3U);
+  return piece;
+}
+
 }  // namespace
 
 int free_domain() {
@@ -61,6 +69,7 @@ SpokenSwarm::SpokenSwarm(int domain)
     statuses_.push_back(node_->writer<protocol::AgentStatus>(id));
     plans_.push_back(node_->writer<protocol::HeldPlans>(id));
     plans_.back().write(held);
+    journals_.push_back(node_->writer<protocol::JournalPiece>());
   }
   words_.write(swarm_.status);
   missions_.write(swarm_.text);
@@ -82,6 +91,8 @@ void SpokenSwarm::tick() {
     setpoints_[id - 1].write(setpoint_of(state, ticks_));
     states_[id - 1].write(state);
     if (ticks_ % 10 == id % 10) statuses_[id - 1].write(swarm_.agents.at(id));
+    // A piece each 25 ms, so four in ten ticks.
+    if ((ticks_ + id) % 5 < 2) journals_[id - 1].write(piece_of(state, ticks_));
   }
   swarm_.load.sequence = ticks_;
   loads_.write(swarm_.load);

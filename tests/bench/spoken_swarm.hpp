@@ -3,8 +3,9 @@
 // process costs.
 //
 // Per carrier setpoint and state at 100 Hz, status at 10 Hz, plans once; beacons at 50 Hz, the load at 100 Hz, the
-// coordinator's word at 2 Hz, the mission once. Beside who is measured, at the same time, runs his floor: a process
-// that has the same readers and throws away what they bring.
+// coordinator's word at 2 Hz, the mission once; and to who records, each agent's journal, 40 pieces a second. Beside
+// who is measured, at the same time, runs his floor: a process that has the same readers and throws away what they
+// bring.
 
 #include <sys/types.h>
 
@@ -47,6 +48,7 @@ class SpokenSwarm {
   std::vector<dds::Writer<protocol::CarrierState>> states_;
   std::vector<dds::Writer<protocol::AgentStatus>> statuses_;
   std::vector<dds::Writer<protocol::HeldPlans>> plans_;
+  std::vector<dds::Writer<protocol::JournalPiece>> journals_;
   std::uint64_t ticks_ = 0;
 };
 

@@ -7,16 +7,11 @@
 
 #include "common/base/text.hpp"
 #include "common/mechanics/reference.hpp"
-#include "common/protocol/liveness.hpp"
 #include "common/protocol/sanity.hpp"
-#include "simulator/core/age_judge.hpp"
-#include "simulator/core/carrier_follower.hpp"
 #include "simulator/core/load_integrator.hpp"
-#include "simulator/core/on_silence.hpp"
-#include "simulator/core/onward.hpp"
 #include "simulator/core/push.hpp"
 #include "simulator/core/setpoint_judge.hpp"
-#include "simulator/core/winch.hpp"
+#include "simulator/core/vehicle.hpp"
 #include "simulator/core/wind.hpp"
 
 namespace gyre::simulator {
@@ -26,24 +21,6 @@ struct WaitingSetpoint {
   LocalTime arrived;
   LocalTime held;  // when what it says was true
   protocol::Setpoint setpoint;
-};
-
-struct Vehicle {
-  CarrierId id = 0;
-  OnSilence on_silence = OnSilence::kGoesOn;
-  CarrierFollower follower;
-  Winch winch;
-  AgeJudge ages;
-  protocol::Liveness led;
-  Onward onward;
-  std::optional<LocalTime> held;  ///< when the last setpoint was true, by the clock here
-  SwarmTime swarm_time{};         ///< and by the swarm's
-
-  [[nodiscard]] Anchor anchor(double t_s) const {
-    const CarrierMotion carrier = follower.at(t_s);
-    const WinchMotion drum = winch.at(t_s);
-    return {carrier.position_w_m, carrier.velocity_w_m_s, drum.length_m, drum.rate_m_s};
-  }
 };
 
 /// Says at most once per kReportPeriod that something is so.
@@ -212,14 +189,11 @@ struct Simulator::World {
   void one_tick(Outputs& out, LocalTime now) {
     const double begin_s = seconds(simulated());
     while (!waiting.empty() && waiting.front().arrived <= time()) {
-      take_up(waiting.front(), begin_s);
+      const WaitingSetpoint& next = waiting.front();
+      vehicles[index.at(next.setpoint.carrier)].take_up(next.setpoint, next.held, time(), start);
       waiting.pop_front();
     }
-    for (Vehicle& vehicle : vehicles) {
-      go_on(vehicle, begin_s);
-      vehicle.follower.tick(begin_s);
-      vehicle.winch.tick(begin_s);
-    }
+    for (Vehicle& vehicle : vehicles) vehicle.tick(time(), start);
     wind.tick(begin_s);
     push.tick(time());
     ++ticks;
@@ -230,30 +204,6 @@ struct Simulator::World {
       integrator.restart(held, seconds(simulated()));
       if (failure_reports.due(now)) out.failure = std::move(failure);
     }
-  }
-
-  void take_up(const WaitingSetpoint& waited, double now_s) {
-    const protocol::Setpoint& s = waited.setpoint;
-    const double held_s = seconds(waited.held - start);
-    Vehicle& vehicle = vehicles[index.at(s.carrier)];
-    vehicle.held = waited.held;
-    vehicle.swarm_time = s.swarm_time;
-    command(vehicle, s, held_s, now_s, Hand::kSame);
-  }
-
-  static void command(Vehicle& vehicle, const protocol::Setpoint& s, double held_s, double now_s, Hand hand) {
-    vehicle.follower.command({s.position_w_m, s.velocity_w_m_s, s.acceleration_w_m_s2}, held_s, now_s, hand);
-    vehicle.winch.command({s.winch_length_m, s.winch_rate_m_s, s.winch_acceleration_m_s2}, held_s, now_s, hand);
-  }
-
-  /// Without setpoints: along the path, by its own count of swarm time. One that holds brakes by itself.
-  void go_on(Vehicle& vehicle, double now_s) {
-    if (vehicle.on_silence == OnSilence::kHolds) return;
-    if (!vehicle.held || time() - *vehicle.held <= kGoesOnAfter) return;
-    const auto s = vehicle.onward.at(vehicle.swarm_time + (time() - *vehicle.held));
-    if (!s || s->carrier != vehicle.id) return;
-    // An agent that was merging back when it died led it beside its path; one that starts again tells of another path.
-    command(vehicle, *s, now_s, now_s, Hand::kAnother);
   }
 
   void publish(Outputs& out) {
@@ -317,16 +267,11 @@ Result<Simulator> Simulator::create(const mechanics::Plan& plan, const Simulatio
     const double wrong = 1.0 + settings.lag_error;
     const mechanics::Winch& winch = plan.winch;
     vehicles.push_back(
-        {slice.id,
-         on_silence,
+        {slice.id, on_silence,
          CarrierFollower(rest.position_w_m.value, settings.carrier_lag_s.value_or(wrong * slice.vehicle_lag_s),
                          on_silence, tick_s),
          Winch(unstretched_m, {wrong * winch.time_constant_s, winch.rate_max_m_s, winch.acceleration_max_m_s2, tick_s},
-               on_silence),
-         AgeJudge(),
-         protocol::Liveness(kLongestSilence),
-         Onward(),
-         {}});
+               on_silence)});
     longest_rest_m = std::max(longest_rest_m, (rest.position_w_m.value - plan.load.position_w_m).norm());
   }
   return Simulator(std::make_unique<World>(plan, settings, start, std::move(vehicles), longest_rest_m));

@@ -41,8 +41,6 @@ inline constexpr Duration kReportPeriod = std::chrono::seconds(1);
 /// A lag shorter than this is the scheduler's, not ours.
 inline constexpr Duration kToleratedLag = std::chrono::milliseconds(100);
 inline constexpr Duration kLongestCatchUp = std::chrono::seconds(10);
-/// A carrier without a setpoint for longer is not led by anybody.
-inline constexpr Duration kLongestSilence = std::chrono::seconds(1);
 /// Bounds the time one step() takes, so that a main loop that catches up still hears a signal.
 inline constexpr int kTicksPerAdvance = 100;
 /// More setpoints than this never wait; the oldest goes first and counts as late.

@@ -11,6 +11,7 @@
 #include "simulator/core/load_integrator.hpp"
 #include "simulator/core/push.hpp"
 #include "simulator/core/setpoint_judge.hpp"
+#include "simulator/core/stall_judge.hpp"
 #include "simulator/core/vehicle.hpp"
 #include "simulator/core/wind.hpp"
 
@@ -84,7 +85,12 @@ struct Simulator::World {
   [[nodiscard]] LocalTime time() const { return start + simulated(); }
 
   void receive(LocalTime arrived, const protocol::Setpoint& setpoint, Outputs& out) {
-    if (auto objection = judge.objection(setpoint, arrived)) {
+    // Nobody is believed, not even to be there: an agent that ended meanwhile would be the incumbent for another while.
+    if (stalls.doubts(arrived)) {
+      ++waited_too_long;
+      latest_objection = "setpoints that may have waited while this process was stopped";
+      unreported_drops = true;
+    } else if (auto objection = judge.objection(setpoint, arrived)) {
       latest_objection = std::move(*objection);
       unreported_drops = true;
     } else {
@@ -143,7 +149,7 @@ struct Simulator::World {
 
   [[nodiscard]] protocol::DropCounts dropped() const {
     protocol::DropCounts counts = judge.dropped();
-    counts.late += overrun;
+    counts.late += overrun + waited_too_long;
     counts.nonsense += pushes_refused;
     return counts;
   }
@@ -170,6 +176,8 @@ struct Simulator::World {
     const bool caught_up = time() + tick > now;
     const bool long_ago = !published_at || now - *published_at >= kPublicationPeriod;
     if (publication == published || (!caught_up && !long_ago)) return;
+    // Whoever begins where his vehicle is would begin where it was before the stall.
+    if (!caught_up && stalls.doubts(now)) return;
     published = publication;
     published_at = now;
     publish(out);
@@ -233,6 +241,7 @@ struct Simulator::World {
   std::vector<Vehicle> vehicles;
   std::map<CarrierId, std::size_t> index;
   SetpointJudge judge;
+  StallJudge stalls;
   Wind wind;
   Push push;
   LoadIntegrator integrator;
@@ -243,6 +252,7 @@ struct Simulator::World {
   std::optional<LocalTime> published_at;
   Duration skipped{};
   std::uint64_t overrun = 0;
+  std::uint64_t waited_too_long = 0;
   std::uint64_t pushes_refused = 0;
   bool unreported_drops = false;
   std::string latest_objection;
@@ -283,6 +293,7 @@ Simulator::Simulator(Simulator&&) noexcept = default;
 
 Outputs Simulator::step(LocalTime now, const Event& event) {
   Outputs out;
+  world_->stalls.awake(now);
   if (const auto* setpoint = std::get_if<protocol::Setpoint>(&event)) {
     world_->receive(now, *setpoint, out);
   } else if (const auto* status = std::get_if<protocol::AgentStatus>(&event)) {

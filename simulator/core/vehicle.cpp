@@ -5,7 +5,6 @@
 namespace gyre::simulator {
 
 void Vehicle::take_up(const protocol::Setpoint& setpoint, LocalTime held, LocalTime now, LocalTime start) {
-  if (on_silence_ == OnSilence::kGoesOn && now - held > kGoesOnAfter && path(now)) return;
   // Its agent may have begun where this vehicle was by then, on its own way.
   const Hand hand = silent(now) ? Hand::kReturns : Hand::kSame;
   last_ = Last{setpoint, held};

@@ -7,8 +7,8 @@
 // off by centimetres per second, which carry far. So whether the two mean the same is judged at the moment for which
 // the last setpoint was said, where nothing is extrapolated.
 //
-// A setpoint that is old on arrival says less of the present than the path does: a vehicle that knows the path leaves
-// it. All times are those of the clock here; `start` is when simulated time began.
+// A setpoint that is old on arrival leads nobody: its vehicle is silent before and after, and is on its path by then.
+// All times are those of the clock here; `start` is when simulated time began.
 
 #include <optional>
 

@@ -50,6 +50,7 @@ class SwarmOfAgents {
   void stop_twin(CarrierId id) { twins_.erase(id); }
   agent::Agent& twin(CarrierId id) { return *twins_.at(id); }
 
+  void tell(const protocol::AgentStatus& status) { tell(StatusArrived{status, now}); }
   void tell(const Event& event) {
     const Outputs out = coordinator_ ? coordinator_->step(now, event) : Outputs{};
     for (const Notice& notice : out.notices) news += notice.text + "\n";

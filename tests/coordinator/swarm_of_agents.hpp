@@ -50,9 +50,11 @@ class SwarmOfAgents {
   void stop_twin(CarrierId id) { twins_.erase(id); }
   agent::Agent& twin(CarrierId id) { return *twins_.at(id); }
 
-  void tell(const protocol::AgentStatus& status) { tell(StatusArrived{status, now}); }
-  void tell(const Event& event) {
-    const Outputs out = coordinator_ ? coordinator_->step(now, event) : Outputs{};
+  void tell(const protocol::AgentStatus& said) { tell(StatusArrived{said, now}); }
+  void tell(Event event) {
+    if (auto* said = std::get_if<StatusArrived>(&event)) said->arrived += coordinator_leapt;
+    if (auto* asked = std::get_if<TimeRequestArrived>(&event)) asked->arrived += coordinator_leapt;
+    const Outputs out = coordinator_ ? coordinator_->step(now + coordinator_leapt, event) : Outputs{};
     for (const Notice& notice : out.notices) news += notice.text + "\n";
     replies.insert(replies.end(), out.replies.begin(), out.replies.end());
     if (out.finished) finished = out.finished;
@@ -67,7 +69,8 @@ class SwarmOfAgents {
       tell_agent(out.time_reply->carrier, agent::TimeReplyArrived{*out.time_reply, now});
     }
     if (out.beacon) {
-      said_.check(*out.beacon, silence);
+      // One whose clock leapt says what cannot be, until it is set right.
+      if (coordinator_leapt == Duration{}) said_.check(*out.beacon, silence);
       for (const auto& [id, offer] : offers_) {
         if (nobody_knows.count(id) == 0) check_that_plans_are_offered(*out.beacon, offer);
       }
@@ -145,6 +148,8 @@ class SwarmOfAgents {
   std::set<CarrierId> deaf;  ///< hear no beacon and no time; plans are told again until they arrive
   std::set<CarrierId> mute;  ///< nothing they say arrives
   std::function<void(protocol::AgentStatus&)> change_status;
+  Duration statuses_wait{};      ///< at the coordinator: said and arrived so long ago
+  Duration coordinator_leapt{};  ///< its clock, ahead of all others
   std::function<void()> visit;
   protocol::Silence silence;         ///< of the mission in force
   std::set<CarrierId> nobody_knows;  ///< whose part of the plan in force is lost
@@ -202,7 +207,8 @@ class SwarmOfAgents {
       protocol::AgentStatus told = *out.status;
       if (change_status) change_status(told);
       statuses[id] = told;
-      tell(told);
+      told.swarm_time -= statuses_wait;
+      tell(StatusArrived{told, now - statuses_wait});
     }
   }
 

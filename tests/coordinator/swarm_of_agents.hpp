@@ -51,10 +51,8 @@ class SwarmOfAgents {
   agent::Agent& twin(CarrierId id) { return *twins_.at(id); }
 
   void tell(const protocol::AgentStatus& said) { tell(StatusArrived{said, now}); }
-  void tell(Event event) {
-    if (auto* said = std::get_if<StatusArrived>(&event)) said->arrived += coordinator_leapt;
-    if (auto* asked = std::get_if<TimeRequestArrived>(&event)) asked->arrived += coordinator_leapt;
-    const Outputs out = coordinator_ ? coordinator_->step(now + coordinator_leapt, event) : Outputs{};
+  void tell(const Event& event) {
+    const auto out = coordinator_ ? coordinator_->step(now + leapt, by_a_clock_that_leapt(event, leapt)) : Outputs{};
     for (const Notice& notice : out.notices) news += notice.text + "\n";
     replies.insert(replies.end(), out.replies.begin(), out.replies.end());
     if (out.finished) finished = out.finished;
@@ -69,8 +67,7 @@ class SwarmOfAgents {
       tell_agent(out.time_reply->carrier, agent::TimeReplyArrived{*out.time_reply, now});
     }
     if (out.beacon) {
-      // One whose clock leapt says what cannot be, until it is set right.
-      if (coordinator_leapt == Duration{}) said_.check(*out.beacon, silence);
+      if (leapt == Duration{}) said_.check(*out.beacon, silence);
       for (const auto& [id, offer] : offers_) {
         if (nobody_knows.count(id) == 0) check_that_plans_are_offered(*out.beacon, offer);
       }
@@ -148,8 +145,8 @@ class SwarmOfAgents {
   std::set<CarrierId> deaf;  ///< hear no beacon and no time; plans are told again until they arrive
   std::set<CarrierId> mute;  ///< nothing they say arrives
   std::function<void(protocol::AgentStatus&)> change_status;
-  Duration statuses_wait{};      ///< at the coordinator: said and arrived so long ago
-  Duration coordinator_leapt{};  ///< its clock, ahead of all others
+  Duration statuses_wait{};  ///< at the coordinator: said and arrived so long ago
+  Duration leapt{};          ///< the coordinator's clock: it says what cannot be, until it is set right
   std::function<void()> visit;
   protocol::Silence silence;         ///< of the mission in force
   std::set<CarrierId> nobody_knows;  ///< whose part of the plan in force is lost
@@ -174,12 +171,7 @@ class SwarmOfAgents {
 
   [[nodiscard]] std::string answer_to(std::uint64_t id, Duration patience) {
     fly(patience);
-    std::string text;
-    int answers = 0;
-    for (const protocol::CommandReply& reply : replies) {
-      if (reply.id == id) ++answers, text = (reply.done ? "done: " : "refused: ") + reply.text;
-    }
-    return answers == 1 ? text : "answered " + std::to_string(answers) + " times";
+    return the_one_answer(replies, id);
   }
 
   void tell_agent(CarrierId id, const agent::Event& event) {

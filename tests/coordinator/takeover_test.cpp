@@ -95,7 +95,7 @@ TEST(Takeover, LearnsTimeByWhenStatusesArrivedAndNotByWhenTheyAreHeard) {
       swarm.fly(milliseconds(90));
       swarm.start_coordinator();
     } else {
-      swarm.coordinator_leapt = seconds(2);
+      swarm.leapt = seconds(2);
     }
     swarm.fly(seconds(2));
     if (!another) {

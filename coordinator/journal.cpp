@@ -31,8 +31,8 @@ Told told(const Retune& retune) {
   writer.text(there ? retune.job.value().mission_text : retune.job.error().text);
   return {JournalKind::kRetune, std::move(bytes)};
 }
-Told told(const protocol::AgentStatus& status) {
-  return {JournalKind::kAgentStatus, dds::content_of(status)};
+Told told(const StatusArrived& status) {
+  return {JournalKind::kAgentStatus, dds::content_of(status.arrived, status.status)};
 }
 Told told(const protocol::HeldPlans& held) {
   return {JournalKind::kHeldPlans, dds::content_of(held)};
@@ -48,6 +48,12 @@ Told told(const protocol::Health& health) {
 }
 Told told(const protocol::CarrierState& state) {
   return {JournalKind::kCarrierState, dds::content_of(state)};
+}
+
+template <class Message, class Arrived>
+std::optional<Event> arrived(const Bytes& content) {
+  auto message = dds::arrival_of<Message>(content);
+  return message ? std::optional<Event>(Arrived{std::move(message->message), message->at}) : std::nullopt;
 }
 
 std::optional<Event> retune_of(const Bytes& content) {
@@ -112,13 +118,11 @@ std::optional<Event> event_of(const protocol::JournalEntry& entry) {
     case JournalKind::kTick:
       return Tick{};
     case JournalKind::kAgentStatus:
-      return dds::heard<Event, protocol::AgentStatus>(entry.content);
+      return arrived<protocol::AgentStatus, StatusArrived>(entry.content);
     case JournalKind::kHeldPlans:
       return dds::heard<Event, protocol::HeldPlans>(entry.content);
-    case JournalKind::kTimeRequest: {
-      const auto request = dds::arrival_of<protocol::TimeRequest>(entry.content);
-      return request ? std::optional<Event>(TimeRequestArrived{request->message, request->at}) : std::nullopt;
-    }
+    case JournalKind::kTimeRequest:
+      return arrived<protocol::TimeRequest, TimeRequestArrived>(entry.content);
     case JournalKind::kCommand:
       return dds::heard<Event, protocol::Command>(entry.content);
     case JournalKind::kRetune:

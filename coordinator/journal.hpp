@@ -2,11 +2,11 @@
 // A coordinator's journal: between what its core is made of, told and says, and the entries of
 // common/protocol/journal.hpp.
 //
-//   kBeginning     the mission's text and the options as JSON, so that a person can read them, too
-//   kTimeRequest   when it arrived (8), and the request
-//   kRetune        the command (8), whether there is a job (1), and the mission's text, or why there is none
-//   kTick, kShutdown   nothing
-//   the others     the message
+//   kBeginning                    the mission's text and the options as JSON, so that a person can read them, too
+//   kAgentStatus, kTimeRequest    when it arrived (8), and the message
+//   kRetune                       the command (8), whether there is a job (1), and the mission's text, or why none
+//   kTick, kShutdown              nothing
+//   the others                    the message
 
 #include <cstdint>
 #include <optional>

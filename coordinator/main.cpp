@@ -54,8 +54,11 @@ class Wire {
     node.read<protocol::Health>([this](protocol::Health h, LocalTime) { inbox_.push(std::move(h)); });
     node.read<protocol::Command>([this](protocol::Command c, LocalTime) { inbox_.push(std::move(c)); });
     for (const gyre::mechanics::Carrier& carrier : plan.carriers) {
-      node.read<protocol::AgentStatus>([this](protocol::AgentStatus s, LocalTime) { inbox_.push(std::move(s)); },
-                                       carrier.id);
+      node.read<protocol::AgentStatus>(
+          [this](protocol::AgentStatus s, LocalTime arrived) {
+            inbox_.push(gyre::coordinator::StatusArrived{std::move(s), arrived});
+          },
+          carrier.id);
       node.read<protocol::HeldPlans>([this](protocol::HeldPlans h, LocalTime) { inbox_.push(std::move(h)); },
                                      carrier.id);
       // Evidence is wanted at the beacons' rate; what comes between from the same vehicle is passed over before it

@@ -58,8 +58,9 @@ bool Coordinator::somebody_waits(LocalTime now) const {
   });
 }
 
-void Coordinator::on(LocalTime now, const protocol::AgentStatus& status, Outputs& out) {
-  if (!sane(status)) {
+void Coordinator::on(LocalTime now, const StatusArrived& event, Outputs& out) {
+  const protocol::AgentStatus& status = event.status;
+  if (!sane(status) || event.arrived > now) {
     ++dropped_.nonsense;
     return;
   }
@@ -82,13 +83,13 @@ void Coordinator::on(LocalTime now, const protocol::AgentStatus& status, Outputs
       return;
   }
   if (listening_) {
-    listening_->recovery.take(now, status);
+    listening_->recovery.take(event.arrived, status);
   } else if (status.term > leading_->term()) {
     stand_down(text("carrier %u follows a newer coordinator (term %llu, this one has %llu): standing down",
                     status.carrier, generation(status.term), generation(leading_->term())),
                out);
   } else {
-    leading_->heard(now, status, out);
+    leading_->heard(event.arrived, status, out);
   }
 }
 

@@ -23,14 +23,19 @@
 namespace gyre::coordinator {
 
 struct Tick {};
+/// What tells the time tells it of when it arrived: until the next beat it waits for up to 20 ms.
+struct StatusArrived {
+  protocol::AgentStatus status;
+  LocalTime arrived{};
+};
 struct TimeRequestArrived {
   protocol::TimeRequest request;
   LocalTime arrived{};
 };
 /// End the flight: to rest, then finish.
 struct Shutdown {};
-using Event = std::variant<Tick, protocol::AgentStatus, protocol::HeldPlans, TimeRequestArrived, protocol::Command,
-                           Retune, protocol::Beacon, protocol::Health, protocol::CarrierState, Shutdown>;
+using Event = std::variant<Tick, StatusArrived, protocol::HeldPlans, TimeRequestArrived, protocol::Command, Retune,
+                           protocol::Beacon, protocol::Health, protocol::CarrierState, Shutdown>;
 
 class Coordinator {
  public:
@@ -50,7 +55,7 @@ class Coordinator {
 
  private:
   void on(LocalTime now, const Tick& tick, Outputs& out);
-  void on(LocalTime now, const protocol::AgentStatus& status, Outputs& out);
+  void on(LocalTime now, const StatusArrived& event, Outputs& out);
   void on(LocalTime now, const protocol::HeldPlans& held, Outputs& out);
   void on(LocalTime now, const TimeRequestArrived& arrived, Outputs& out);
   void on(LocalTime now, const protocol::Command& command, Outputs& out);

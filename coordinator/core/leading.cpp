@@ -100,8 +100,8 @@ void Leading::tick(LocalTime now, Outputs& out) {
   }
 }
 
-void Leading::heard(LocalTime now, const protocol::AgentStatus& status, Outputs& out) {
-  consensus_.take(swarm_time(now), status);
+void Leading::heard(LocalTime arrived, const protocol::AgentStatus& status, Outputs& out) {
+  consensus_.take(swarm_time(arrived), status);
   const auto correction = consensus_.correction(swarm_.carriers);
   if (!correction) return;
   swarm_offset_ += *correction;

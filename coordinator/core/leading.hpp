@@ -42,7 +42,7 @@ class Leading {
           const Beginning& beginning, Outputs& out);
 
   void tick(LocalTime now, Outputs& out);
-  void heard(LocalTime now, const protocol::AgentStatus& status, Outputs& out);
+  void heard(LocalTime arrived, const protocol::AgentStatus& status, Outputs& out);
   void seen(LocalTime now, const protocol::CarrierState& state, Outputs& out);
   void learn(const protocol::HeldPlans& held, Outputs& out);
   void command(LocalTime now, const protocol::Command& command, Outputs& out);

@@ -22,7 +22,7 @@ void CarrierFollower::command(const CarrierTarget& target, double held_s, double
   target_ = target;
   target_since_s_ = held_s;
   brakes_at_s_ = brakes_at_s(on_silence_, now_s);
-  const bool called_elsewhere = (hand == Hand::kAnother || catch_up_.under_way(now_s)) &&
+  const bool called_elsewhere = (hand == Hand::kAnother || (hand == Hand::kReturns && catch_up_.under_way(now_s))) &&
                                 (asked(now_s).position_w_m - before.position_w_m).norm() > kCalledElsewhere_m;
   if (slowed_down || called_elsewhere) {
     catch_up_ = CatchUp<Eigen::Vector3d>(Eigen::Vector3d::Zero());

@@ -17,8 +17,9 @@ inline constexpr double kCatchUp_s = 3.0;
 /// A target that changes its mind by more, and not the extrapolation of it.
 inline constexpr double kCalledElsewhere_m = 1e-3;
 
-/// Who gives a target: whoever gave the one before, or somebody else, who need not have had the same in mind.
-enum class Hand { kSame, kAnother };
+/// Who gives a target: whoever gave the one before; the same again after a silence, who may have begun anew from where
+/// the vehicle was; or somebody else, who need not have had the same in mind.
+enum class Hand { kSame, kReturns, kAnother };
 
 /// Quantity: a length, or a vector of them.
 template <class Quantity>

@@ -7,16 +7,12 @@
 
 #include "common/base/text.hpp"
 #include "common/mechanics/reference.hpp"
-#include "common/protocol/liveness.hpp"
 #include "common/protocol/sanity.hpp"
-#include "simulator/core/age_judge.hpp"
-#include "simulator/core/carrier_follower.hpp"
 #include "simulator/core/load_integrator.hpp"
-#include "simulator/core/on_silence.hpp"
-#include "simulator/core/onward.hpp"
 #include "simulator/core/push.hpp"
 #include "simulator/core/setpoint_judge.hpp"
-#include "simulator/core/winch.hpp"
+#include "simulator/core/stall_judge.hpp"
+#include "simulator/core/vehicle.hpp"
 #include "simulator/core/wind.hpp"
 
 namespace gyre::simulator {
@@ -26,24 +22,6 @@ struct WaitingSetpoint {
   LocalTime arrived;
   LocalTime held;  // when what it says was true
   protocol::Setpoint setpoint;
-};
-
-struct Vehicle {
-  CarrierId id = 0;
-  OnSilence on_silence = OnSilence::kGoesOn;
-  CarrierFollower follower;
-  Winch winch;
-  AgeJudge ages;
-  protocol::Liveness led;
-  Onward onward;
-  std::optional<LocalTime> held;  ///< when the last setpoint was true, by the clock here
-  SwarmTime swarm_time{};         ///< and by the swarm's
-
-  [[nodiscard]] Anchor anchor(double t_s) const {
-    const CarrierMotion carrier = follower.at(t_s);
-    const WinchMotion drum = winch.at(t_s);
-    return {carrier.position_w_m, carrier.velocity_w_m_s, drum.length_m, drum.rate_m_s};
-  }
 };
 
 /// Says at most once per kReportPeriod that something is so.
@@ -107,7 +85,12 @@ struct Simulator::World {
   [[nodiscard]] LocalTime time() const { return start + simulated(); }
 
   void receive(LocalTime arrived, const protocol::Setpoint& setpoint, Outputs& out) {
-    if (auto objection = judge.objection(setpoint, arrived)) {
+    // Nobody is believed, not even to be there: an agent that ended meanwhile would be the incumbent for another while.
+    if (stalls.doubts(arrived)) {
+      ++waited_too_long;
+      latest_objection = "setpoints that may have waited while this process was stopped";
+      unreported_drops = true;
+    } else if (auto objection = judge.objection(setpoint, arrived)) {
       latest_objection = std::move(*objection);
       unreported_drops = true;
     } else {
@@ -166,7 +149,7 @@ struct Simulator::World {
 
   [[nodiscard]] protocol::DropCounts dropped() const {
     protocol::DropCounts counts = judge.dropped();
-    counts.late += overrun;
+    counts.late += overrun + waited_too_long;
     counts.nonsense += pushes_refused;
     return counts;
   }
@@ -193,6 +176,8 @@ struct Simulator::World {
     const bool caught_up = time() + tick > now;
     const bool long_ago = !published_at || now - *published_at >= kPublicationPeriod;
     if (publication == published || (!caught_up && !long_ago)) return;
+    // Whoever begins where his vehicle is would begin where it was before the stall.
+    if (!caught_up && stalls.doubts(now)) return;
     published = publication;
     published_at = now;
     publish(out);
@@ -212,14 +197,11 @@ struct Simulator::World {
   void one_tick(Outputs& out, LocalTime now) {
     const double begin_s = seconds(simulated());
     while (!waiting.empty() && waiting.front().arrived <= time()) {
-      take_up(waiting.front(), begin_s);
+      const WaitingSetpoint& next = waiting.front();
+      vehicles[index.at(next.setpoint.carrier)].take_up(next.setpoint, next.held, time(), start);
       waiting.pop_front();
     }
-    for (Vehicle& vehicle : vehicles) {
-      go_on(vehicle, begin_s);
-      vehicle.follower.tick(begin_s);
-      vehicle.winch.tick(begin_s);
-    }
+    for (Vehicle& vehicle : vehicles) vehicle.tick(time(), start);
     wind.tick(begin_s);
     push.tick(time());
     ++ticks;
@@ -230,30 +212,6 @@ struct Simulator::World {
       integrator.restart(held, seconds(simulated()));
       if (failure_reports.due(now)) out.failure = std::move(failure);
     }
-  }
-
-  void take_up(const WaitingSetpoint& waited, double now_s) {
-    const protocol::Setpoint& s = waited.setpoint;
-    const double held_s = seconds(waited.held - start);
-    Vehicle& vehicle = vehicles[index.at(s.carrier)];
-    vehicle.held = waited.held;
-    vehicle.swarm_time = s.swarm_time;
-    command(vehicle, s, held_s, now_s, Hand::kSame);
-  }
-
-  static void command(Vehicle& vehicle, const protocol::Setpoint& s, double held_s, double now_s, Hand hand) {
-    vehicle.follower.command({s.position_w_m, s.velocity_w_m_s, s.acceleration_w_m_s2}, held_s, now_s, hand);
-    vehicle.winch.command({s.winch_length_m, s.winch_rate_m_s, s.winch_acceleration_m_s2}, held_s, now_s, hand);
-  }
-
-  /// Without setpoints: along the path, by its own count of swarm time. One that holds brakes by itself.
-  void go_on(Vehicle& vehicle, double now_s) {
-    if (vehicle.on_silence == OnSilence::kHolds) return;
-    if (!vehicle.held || time() - *vehicle.held <= kGoesOnAfter) return;
-    const auto s = vehicle.onward.at(vehicle.swarm_time + (time() - *vehicle.held));
-    if (!s || s->carrier != vehicle.id) return;
-    // An agent that was merging back when it died led it beside its path; one that starts again tells of another path.
-    command(vehicle, *s, now_s, now_s, Hand::kAnother);
   }
 
   void publish(Outputs& out) {
@@ -283,6 +241,7 @@ struct Simulator::World {
   std::vector<Vehicle> vehicles;
   std::map<CarrierId, std::size_t> index;
   SetpointJudge judge;
+  StallJudge stalls;
   Wind wind;
   Push push;
   LoadIntegrator integrator;
@@ -293,6 +252,7 @@ struct Simulator::World {
   std::optional<LocalTime> published_at;
   Duration skipped{};
   std::uint64_t overrun = 0;
+  std::uint64_t waited_too_long = 0;
   std::uint64_t pushes_refused = 0;
   bool unreported_drops = false;
   std::string latest_objection;
@@ -317,16 +277,11 @@ Result<Simulator> Simulator::create(const mechanics::Plan& plan, const Simulatio
     const double wrong = 1.0 + settings.lag_error;
     const mechanics::Winch& winch = plan.winch;
     vehicles.push_back(
-        {slice.id,
-         on_silence,
+        {slice.id, on_silence,
          CarrierFollower(rest.position_w_m.value, settings.carrier_lag_s.value_or(wrong * slice.vehicle_lag_s),
                          on_silence, tick_s),
          Winch(unstretched_m, {wrong * winch.time_constant_s, winch.rate_max_m_s, winch.acceleration_max_m_s2, tick_s},
-               on_silence),
-         AgeJudge(),
-         protocol::Liveness(kLongestSilence),
-         Onward(),
-         {}});
+               on_silence)});
     longest_rest_m = std::max(longest_rest_m, (rest.position_w_m.value - plan.load.position_w_m).norm());
   }
   return Simulator(std::make_unique<World>(plan, settings, start, std::move(vehicles), longest_rest_m));
@@ -338,6 +293,7 @@ Simulator::Simulator(Simulator&&) noexcept = default;
 
 Outputs Simulator::step(LocalTime now, const Event& event) {
   Outputs out;
+  world_->stalls.awake(now);
   if (const auto* setpoint = std::get_if<protocol::Setpoint>(&event)) {
     world_->receive(now, *setpoint, out);
   } else if (const auto* status = std::get_if<protocol::AgentStatus>(&event)) {

@@ -13,8 +13,10 @@
 //
 // When the simulated time is behind (a stall of the process, a machine too slow), every missed tick is still
 // integrated, but publications are not made up for: only the newest state goes out, no earlier than one publication
-// period after the last. More than kLongestCatchUp behind, the surplus is skipped: the world stood still meanwhile.
-// Both are reported, at most once per second.
+// period after the last. After a stall it goes out when the simulated time has caught up, and setpoints that may have
+// waited meanwhile are not flown (stall_judge.hpp): vehicles go on by themselves, as without setpoints. More than
+// kLongestCatchUp behind, the surplus is skipped: the world stood still meanwhile. Both are reported, at most once per
+// second.
 //
 // The flight begins at rest: carriers where the plan has them at its beginning, cables paid out so that the load is in
 // exact equilibrium. A carrier without setpoints stays there. When CVODE fails twice on a tick, the load is held still
@@ -41,8 +43,6 @@ inline constexpr Duration kReportPeriod = std::chrono::seconds(1);
 /// A lag shorter than this is the scheduler's, not ours.
 inline constexpr Duration kToleratedLag = std::chrono::milliseconds(100);
 inline constexpr Duration kLongestCatchUp = std::chrono::seconds(10);
-/// A carrier without a setpoint for longer is not led by anybody.
-inline constexpr Duration kLongestSilence = std::chrono::seconds(1);
 /// Bounds the time one step() takes, so that a main loop that catches up still hears a signal.
 inline constexpr int kTicksPerAdvance = 100;
 /// More setpoints than this never wait; the oldest goes first and counts as late.

@@ -20,7 +20,7 @@ void Winch::command(const WinchTarget& target, double held_s, double now_s, Hand
   target_ = target;
   target_since_s_ = held_s;
   brakes_at_s_ = brakes_at_s(on_silence_, now_s);
-  const bool called_elsewhere = (hand == Hand::kAnother || catch_up_.under_way(now_s)) &&
+  const bool called_elsewhere = (hand == Hand::kAnother || (hand == Hand::kReturns && catch_up_.under_way(now_s))) &&
                                 std::abs(asked(now_s).length_m - before.length_m) > kCalledElsewhere_m;
   if (!slowed_down && !called_elsewhere) return;
   catch_up_ = CatchUp<double>(0.0);

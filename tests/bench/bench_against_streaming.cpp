@@ -206,6 +206,7 @@ class GyreFlight {
   void conduct(Duration now, const gyre::coordinator::Event& event) {
     auto arrived = event;
     if (auto* request = std::get_if<gyre::coordinator::TimeRequestArrived>(&arrived)) request->arrived = LocalTime(now);
+    if (auto* status = std::get_if<gyre::coordinator::StatusArrived>(&arrived)) status->arrived = LocalTime(now);
     const auto out = coordinator_.step(LocalTime(now), arrived);
     next_conduct_ = out.next_tick;
     for (std::size_t i = 0; i < agents_.size(); ++i) {
@@ -231,7 +232,7 @@ class GyreFlight {
     }
     if (out.setpoint) world_.hear(now, *out.setpoint);
     if (out.held) to_coordinator_.send_until_heard(up(i), now, *out.held);
-    if (out.status) to_coordinator_.send_until_heard(up(i), now, *out.status);
+    if (out.status) to_coordinator_.send_until_heard(up(i), now, gyre::coordinator::StatusArrived{*out.status, {}});
     if (out.question) act(now, i, gyre::agent::judge(*out.question));
   }
 

@@ -47,6 +47,23 @@ inline bool says(const std::string& text, const std::string& words) {
   return text.find(words) != std::string::npos;
 }
 
+/// What came of a command, in words.
+inline std::string the_one_answer(const std::vector<protocol::CommandReply>& replies, std::uint64_t command) {
+  std::string text;
+  int answers = 0;
+  for (const protocol::CommandReply& reply : replies) {
+    if (reply.id == command) ++answers, text = (reply.done ? "done: " : "refused: ") + reply.text;
+  }
+  return answers == 1 ? text : "answered " + std::to_string(answers) + " times";
+}
+
+/// The same event where the clock that stamps what arrives leapt.
+inline Event by_a_clock_that_leapt(Event event, Duration leapt) {
+  if (auto* said = std::get_if<StatusArrived>(&event)) said->arrived += leapt;
+  if (auto* asked = std::get_if<TimeRequestArrived>(&event)) asked->arrived += leapt;
+  return event;
+}
+
 /// What has to hold from one beacon to the next.
 inline void check_invariants(const std::optional<protocol::Beacon>& before, const protocol::Beacon& b,
                              const protocol::Silence& silence) {

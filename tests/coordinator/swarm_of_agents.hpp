@@ -50,9 +50,11 @@ class SwarmOfAgents {
   void stop_twin(CarrierId id) { twins_.erase(id); }
   agent::Agent& twin(CarrierId id) { return *twins_.at(id); }
 
+  void tell(const protocol::AgentStatus& said) { tell(StatusArrived{said, now}); }
   void tell(const Event& event) {
-    const Outputs out = coordinator_ ? coordinator_->step(now, event) : Outputs{};
-    if (stepped && coordinator_) stepped(event, out);
+    const Event told = by_a_clock_that_leapt(event, leapt);
+    const Outputs out = coordinator_ ? coordinator_->step(now + leapt, told) : Outputs{};
+    if (stepped && coordinator_) stepped(told, out);
     for (const Notice& notice : out.notices) news += notice.text + "\n";
     replies.insert(replies.end(), out.replies.begin(), out.replies.end());
     if (out.finished) finished = out.finished;
@@ -67,7 +69,7 @@ class SwarmOfAgents {
       tell_agent(out.time_reply->carrier, agent::TimeReplyArrived{*out.time_reply, now});
     }
     if (out.beacon) {
-      said_.check(*out.beacon, silence);
+      if (leapt == Duration{}) said_.check(*out.beacon, silence);
       for (const auto& [id, offer] : offers_) {
         if (nobody_knows.count(id) == 0) check_that_plans_are_offered(*out.beacon, offer);
       }
@@ -144,6 +146,8 @@ class SwarmOfAgents {
   std::set<CarrierId> deaf;  ///< hear no beacon and no time; plans are told again until they arrive
   std::set<CarrierId> mute;  ///< nothing they say arrives
   std::function<void(protocol::AgentStatus&)> change_status;
+  Duration statuses_wait{};  ///< at the coordinator: said and arrived so long ago
+  Duration leapt{};          ///< the coordinator's clock: it says what cannot be, until it is set right
   std::function<void()> visit;
   std::function<void(const Event&, const Outputs&)> stepped;  ///< the coordinator
   protocol::Silence silence;                                  ///< of the mission in force
@@ -169,12 +173,7 @@ class SwarmOfAgents {
 
   [[nodiscard]] std::string answer_to(std::uint64_t id, Duration patience) {
     fly(patience);
-    std::string text;
-    int answers = 0;
-    for (const protocol::CommandReply& reply : replies) {
-      if (reply.id == id) ++answers, text = (reply.done ? "done: " : "refused: ") + reply.text;
-    }
-    return answers == 1 ? text : "answered " + std::to_string(answers) + " times";
+    return the_one_answer(replies, id);
   }
 
   void tell_agent(CarrierId id, const agent::Event& event) {
@@ -202,7 +201,8 @@ class SwarmOfAgents {
       protocol::AgentStatus told = *out.status;
       if (change_status) change_status(told);
       statuses[id] = told;
-      tell(told);
+      told.swarm_time -= statuses_wait;
+      tell(StatusArrived{told, now - statuses_wait});
     }
   }
 

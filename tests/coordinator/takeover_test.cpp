@@ -84,6 +84,28 @@ TEST(Takeover, WhoHungWhileItListenedListensAnew) {
   }
 }
 
+// Until the next beat of the one that learns.
+TEST(Takeover, LearnsTimeByWhenStatusesArrivedAndNotByWhenTheyAreHeard) {
+  for (const bool another : {true, false}) {
+    Flying swarm;
+    swarm.statuses_wait = milliseconds(40);
+    const Duration offset = swarm.beacon->swarm_time.time_since_epoch() - swarm.now.time_since_epoch();
+    if (another) {
+      swarm.stop_coordinator();
+      swarm.fly(milliseconds(90));
+      swarm.start_coordinator();
+    } else {
+      swarm.leapt = seconds(2);
+    }
+    swarm.fly(seconds(2));
+    if (!another) {
+      EXPECT_TRUE(says(swarm.news, "this clock jumped by 2.000 s")) << swarm.news;
+    }
+    const Duration now = swarm.beacon->swarm_time.time_since_epoch() - swarm.now.time_since_epoch();
+    EXPECT_LT(std::abs(gyre::seconds(now - offset)), 0.011 + 1e-3) << another;
+  }
+}
+
 TEST(Takeover, LetsTheMissionThatIsFlownBeTheMission) {
   Flying swarm;
   const Job mission = faster();

@@ -162,7 +162,8 @@ TEST(CarrierFollower, IsCalledBackWithoutALeapWhileItCatchesUp) {
   here.position_w_m = follower.at(5.0).position_w_m;
   CarrierMotion before = follower.at(5.0);
   for (double t_s = 5.0; t_s < 10.0; t_s += 0.001) {
-    follower.command(t_s < 5.1 ? circle(t_s) : here, t_s, t_s);
+    const bool called_back = t_s >= 5.1;
+    follower.command(called_back ? here : circle(t_s), t_s, t_s, called_back ? Hand::kReturns : Hand::kSame);
     const CarrierMotion after = follower.at(t_s);
     ASSERT_LT((after.position_w_m - before.position_w_m).norm(), 1e-3) << t_s;
     before = after;

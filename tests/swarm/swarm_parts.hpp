@@ -41,6 +41,8 @@ struct Message {
           using T = std::decay_t<decltype(m)>;
           if constexpr (std::is_same_v<T, protocol::TimeRequest>) {
             return coordinator::TimeRequestArrived{m, arrived};
+          } else if constexpr (std::is_same_v<T, protocol::AgentStatus>) {
+            return coordinator::StatusArrived{m, arrived};
           } else if constexpr (std::is_constructible_v<coordinator::Event, T>) {
             return m;
           } else {

@@ -1,0 +1,97 @@
+#include "agent/core/clock_watch.hpp"
+
+#include <algorithm>
+
+namespace gyre::agent {
+
+Ages::Seems Ages::hear(Duration age) {
+  if (!known()) {
+    keep(age);
+    return Seems::kUnknown;
+  }
+  if (!usual(age)) {
+    if (++in_a_row_ > kInARow) begin_anew();
+    return Seems::kStrange;
+  }
+  if (in_a_row_ > 0 && ++alone_ > kAlone) begin_anew();
+  in_a_row_ = 0;
+  keep(age);
+  return Seems::kUsual;
+}
+
+void Ages::keep(Duration age) {
+  ages_[count_ % kWindow] = age;
+  ++count_;
+  if (count_ % kWindow == 0) alone_ = 0;
+  const auto end = ages_.begin() + static_cast<std::ptrdiff_t>(std::min(count_, kWindow));
+  const auto [least, greatest] = std::minmax_element(ages_.begin(), end);
+  least_ = *least;
+  greatest_ = *greatest;
+}
+
+void Ages::shift(Duration by) {
+  for (Duration& age : ages_) age += by;
+  least_ += by;
+  greatest_ += by;
+  in_a_row_ = 0;
+}
+
+void ClockWatch::step(LocalTime now) {
+  const bool late = stepped_at_ && now - *stepped_at_ > kLate;
+  stepped_at_ = now;
+  if (late && (vehicle_.known() || beacons_.known())) late_at_ = now;
+  if (suspicion_ && now - suspicion_->since > kLongestSuspicion) refuted();
+}
+
+void ClockWatch::hear_vehicle(LocalTime arrived, std::uint64_t incarnation, LocalTime stamp) {
+  if (incarnation != vehicle_incarnation_) vehicle_.begin_anew();  // of another clock
+  vehicle_incarnation_ = incarnation;
+  const Duration age = arrived.time_since_epoch() - stamp.time_since_epoch();
+  const Ages::Seems seems = vehicle_.hear(age);
+  if (seems == Ages::Seems::kStrange) return suspect(Witness::kVehicle, vehicle_.step(age));
+  if (seems == Ages::Seems::kUsual) confirm(arrived);
+}
+
+void ClockWatch::hear_beacon(LocalTime arrived, SwarmTime stamp) {
+  const Duration age = arrived.time_since_epoch() - stamp.time_since_epoch();
+  const Ages::Seems seems = beacons_.hear(age);
+  if (seems == Ages::Seems::kStrange && late_at_ && !vehicle_.known()) {
+    return suspect(Witness::kBeacon, beacons_.step(age));
+  }
+  if (seems != Ages::Seems::kUsual) return;
+  if (!suspicion_) return confirm(arrived);
+  if (witness_ == Witness::kBeacon) return confirm(arrived);
+  // The vehicle says that the clock has leapt; a beacon that would be strange then is as usual: it was the vehicle's.
+  if (arrived >= suspicion_->since && !beacons_.usual(age - suspicion_->leap)) {
+    vehicle_.begin_anew();
+    confirm(arrived);
+  }
+}
+
+void ClockWatch::suspect(Witness witness, Duration leap) {
+  if (!suspicion_) suspicion_ = Suspicion{*stepped_at_, leap};
+  suspicion_->leap = leap;
+  witness_ = witness;
+}
+
+void ClockWatch::confirm(LocalTime arrived) {
+  confirmed_ = std::max(confirmed_, arrived);
+  suspicion_.reset();
+  if (late_at_ && arrived >= *late_at_ - kLate) late_at_.reset();
+}
+
+void ClockWatch::leapt(Duration by) {
+  vehicle_.shift(by);
+  beacons_.shift(by);
+  suspicion_.reset();
+  late_at_.reset();
+}
+
+void ClockWatch::refuted() {
+  vehicle_.begin_anew();
+  beacons_.begin_anew();
+  suspicion_.reset();
+  late_at_.reset();
+}
+
+}  // namespace gyre::agent

@@ -347,7 +347,7 @@ void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
   } else if (verdict != Verdict::kTaken) {
     ++dropped_.nonsense;
     return;
-  } else if (suspected && exchange.delay() < std::max(*suspected, -*suspected)) {
+  } else if (before && suspected && refutes(exchange, *time_before - (now - event.arrived), *suspected)) {
     watch_.refuted();
   }
   if (!before && clock_.synchronised()) {

@@ -124,6 +124,8 @@ class Agent {
   [[nodiscard]] bool doubts_clock(LocalTime now) const;
   /// What this clock is suspected to have leapt by, of an exchange that can tell.
   [[nodiscard]] std::optional<Duration> suspected_before(const protocol::Exchange& exchange) const;
+  /// Whether swarm time, as it was read here when the reply `arrived`, is what the exchange says.
+  [[nodiscard]] static bool refutes(const protocol::Exchange& exchange, SwarmTime arrived, Duration leap);
   void leapt(LocalTime now, Duration by, const std::optional<Command>& flown, Outputs& out);
   [[nodiscard]] Duration request_period(LocalTime now) const;
   [[nodiscard]] bool accepts_term(std::uint64_t term, Outputs& out);

@@ -39,6 +39,7 @@ void Ages::shift(Duration by) {
 void ClockWatch::step(LocalTime now) {
   const bool late = stepped_at_ && now - *stepped_at_ > kLate;
   stepped_at_ = now;
+  if (late_at_ && now - *late_at_ > kUnconfirmed) late_at_.reset();
   if (late && (vehicle_.known() || beacons_.known())) late_at_ = now;
   if (suspicion_ && now - suspicion_->since > kLongestSuspicion) refuted();
 }
@@ -55,12 +56,9 @@ void ClockWatch::hear_vehicle(LocalTime arrived, std::uint64_t incarnation, Loca
 void ClockWatch::hear_beacon(LocalTime arrived, SwarmTime stamp) {
   const Duration age = arrived.time_since_epoch() - stamp.time_since_epoch();
   const Ages::Seems seems = beacons_.hear(age);
-  if (seems == Ages::Seems::kStrange && late_at_ && !vehicle_.known()) {
-    return suspect(Witness::kBeacon, beacons_.step(age));
-  }
+  if (seems == Ages::Seems::kStrange && late_at_ && !suspicion_) suspect(Witness::kBeacon, beacons_.step(age));
   if (seems != Ages::Seems::kUsual) return;
-  if (!suspicion_) return confirm(arrived);
-  if (witness_ == Witness::kBeacon) return confirm(arrived);
+  if (!suspicion_ || witness_ == Witness::kBeacon) return confirm(arrived);
   // The vehicle says that the clock has leapt; a beacon that would be strange then is as usual: it was the vehicle's.
   if (arrived >= suspicion_->since && !beacons_.usual(age - suspicion_->leap)) {
     vehicle_.begin_anew();

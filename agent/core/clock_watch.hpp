@@ -17,8 +17,8 @@
 // moves an offset by more than half of the exchange's delay.
 //
 // A leap beyond the beat also shows as a beat that comes late. Nobody can tell it from a process that had to wait, so
-// what such a beat shows is not trusted before something that arrived just before it, or after it, was as usual. Where
-// no vehicle tells states, a late beat and beacons that step are a suspicion, too.
+// what such a beat shows is not trusted before something that arrived just before it, or after it, was as usual. A
+// late beat and a beacon that is strange are a suspicion as well: not every vehicle tells states.
 //
 // Blind: for the first kEnough messages, where ages vary by more than kSteady, and to leaps below kUnusual; and to
 // those within a beat where the vehicle stamps by the very clock that leapt, or does not tell.
@@ -71,8 +71,8 @@ class ClockWatch {
  public:
   /// A suspicion that nobody proves or refutes, because no exchange comes through: what the clock says is taken then.
   static constexpr Duration kLongestSuspicion = std::chrono::milliseconds(300);
-  /// A beat may be late by this.
-  static constexpr Duration kLate = std::chrono::milliseconds(15);
+  /// Steps further apart than a beat and a little: one was late.
+  static constexpr Duration kLate = std::chrono::milliseconds(12);
   /// And one that was later is not trusted for so long, where nothing arrives: as long as a vehicle that brakes when it
   /// hears nothing waits, and a beat.
   static constexpr Duration kUnconfirmed = std::chrono::milliseconds(60);
@@ -89,9 +89,7 @@ class ClockWatch {
 
   [[nodiscard]] const std::optional<Suspicion>& suspicion() const { return suspicion_; }
   /// Whether what the clock shows may be wrong by a leap.
-  [[nodiscard]] bool doubts(LocalTime now) const {
-    return suspicion_ || (late_at_ && now - *late_at_ <= kUnconfirmed);
-  }
+  [[nodiscard]] bool doubts() const { return suspicion_ || late_at_; }
   /// Until when messages were as usual.
   [[nodiscard]] LocalTime confirmed() const { return confirmed_; }
 

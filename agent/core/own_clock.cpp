@@ -1,5 +1,7 @@
 // What an agent does about its own clock: watches it by whatever arrives, and goes on where it was when it leapt.
 
+#include <algorithm>
+
 #include "agent/core/agent.hpp"
 #include "common/base/text.hpp"
 #include "common/protocol/sanity.hpp"
@@ -32,13 +34,19 @@ void Agent::on(LocalTime now, const Heard<protocol::CarrierState>& heard, Output
 }
 
 bool Agent::doubts_clock(LocalTime now) const {
-  return (doubted_at_ && now - *doubted_at_ <= options_.doubt) || watch_.doubts(now);
+  return (doubted_at_ && now - *doubted_at_ <= options_.doubt) || watch_.doubts();
 }
 
 std::optional<Duration> Agent::suspected_before(const protocol::Exchange& exchange) const {
   const auto& suspicion = watch_.suspicion();
   if (!suspicion || exchange.request_sent < suspicion->since) return std::nullopt;
   return suspicion->leap;
+}
+
+/// It would have to be the network's asymmetry that hides a leap.
+bool Agent::refutes(const protocol::Exchange& exchange, SwarmTime arrived, Duration leap) {
+  const Duration off = exchange.reply_sent + exchange.delay() / 2 - arrived;
+  return 2 * std::max(off, -off) < std::max(leap, -leap);
 }
 
 void Agent::leapt(LocalTime now, Duration by, const std::optional<Command>& flown, Outputs& out) {

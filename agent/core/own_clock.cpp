@@ -51,7 +51,7 @@ bool Agent::refutes(const protocol::Exchange& exchange, SwarmTime arrived, Durat
 
 void Agent::leapt(LocalTime now, Duration by, const std::optional<Command>& flown, Outputs& out) {
   out.notices.push_back(
-      {Notice::Level::kWarning, text("this clock leapt by %.3g ms: swarm time was found anew", 1e3 * seconds(by))});
+      {Notice::Level::kWarning, text("this clock leapt by %.4g ms: swarm time was found anew", 1e3 * seconds(by))});
   // What was sent since is as little as can be undone; else it is the path by now, and left as any other.
   const bool misled = flown_at_ && *flown_at_ > watch_.confirmed() + kMisled;
   if (misled && flown && reference(course_, clock_.at(now))) merge_.begin(clock_.at(now), *flown, path(course_));

@@ -82,7 +82,7 @@ void Agent::on(LocalTime now, const Tick& /*tick*/, Outputs& out) {
     const auto r = reference(course_, *time);
     if (r && back_at_the_vehicle(now)) send(now, setpoint(*time, *r), out);
   }
-  const bool alone = coordinator_.ever_heard() && coordinator_.silent(now);
+  const bool alone = coordinator_.ever_heard() && coordinator_.silent(now) && !doubts_clock(now);
   if (alone != alone_) {
     alone_ = alone;
     out.notices.push_back({alone ? Notice::Level::kWarning : Notice::Level::kInfo,

@@ -7,7 +7,7 @@
 // stands still, younger. A machine is suspended, a virtual one is paused or migrated, a hypervisor corrects it.
 //
 //   age      arrived − stamp, by two clocks                                                      ns
-//   usual    within kUnusual of the ages of the last kWindow messages
+//   usual    among the ages of the last kWindow messages, or no further off than they vary; at least kUnusual
 //   step     age − the middle of the usual ones: what the clock has leapt by, if it has          ns
 //
 // What the naive way gets wrong: an age steps as well when the network gets slower, when the sender's clock leaps or
@@ -20,9 +20,11 @@
 // what such a beat shows is not trusted before something that arrived just before it, or after it, was as usual. A
 // late beat and a beacon that is strange are a suspicion as well: not every vehicle tells states.
 //
-// Blind: for the first kEnough messages, where ages vary by more than kSteady, and to leaps below kUnusual; and to
-// those within a beat where the vehicle stamps by the very clock that leapt, or does not tell.
+// Blind: for the first kEnough messages, to leaps below kUnusual, to those by which ages vary anyway, and to any where
+// they vary by more than kSteady; and to those within a beat where the vehicle stamps by the very clock that leapt, or
+// does not tell.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -38,7 +40,7 @@ class Ages {
   static constexpr std::size_t kWindow = 32;
   static constexpr std::size_t kEnough = 16;
   static constexpr Duration kUnusual = std::chrono::milliseconds(2);
-  static constexpr Duration kSteady = std::chrono::milliseconds(5);
+  static constexpr Duration kSteady = std::chrono::milliseconds(50);
 
   enum class Seems { kUnknown, kUsual, kStrange };
   Seems hear(Duration age);
@@ -47,7 +49,10 @@ class Ages {
   [[nodiscard]] bool known() const { return count_ >= kEnough && greatest_ - least_ <= kSteady; }
   /// How far an age is from the middle of the usual ones. Needs one.
   [[nodiscard]] Duration step(Duration age) const { return age - (least_ + (greatest_ - least_) / 2); }
-  [[nodiscard]] bool usual(Duration age) const { return age >= least_ - kUnusual && age <= greatest_ + kUnusual; }
+  [[nodiscard]] bool usual(Duration age) const {
+    const Duration margin = std::max(kUnusual, greatest_ - least_);
+    return age >= least_ - margin && age <= greatest_ + margin;
+  }
   /// The clock here has leapt: so have all ages.
   void shift(Duration by);
   void begin_anew() { *this = Ages(); }

@@ -55,6 +55,7 @@ void Agent::leapt(LocalTime now, Duration by, const std::optional<Command>& flow
   // What was sent since is as little as can be undone; else it is the path by now, and left as any other.
   const bool misled = flown_at_ && *flown_at_ > watch_.confirmed() + kMisled;
   if (misled && flown && reference(course_, clock_.at(now))) merge_.begin(clock_.at(now), *flown, path(course_));
+  coordinator_.heard(now);  // it answered just now; by this clock all it said before is as old as the leap is long
   doubted_at_.reset();
   watch_.leapt(by);
 }

@@ -70,12 +70,12 @@ protocol::AgentStatus Agent::status(LocalTime now) {
 }
 
 Duration Agent::request_period(LocalTime now) const {
-  if (coordinator_.silent(now)) return options_.request_period;  // nobody answers: no reason to hurry
-  const bool answered = requests_answered_ == requests_;
-  // The answer decides whether it may go on.
+  // The answer decides whether it may go on; and a leap makes the coordinator seem silent, too.
   if (const auto& suspicion = watch_.suspicion()) {
     return requested_at_ < suspicion->since ? Duration::zero() : options_.request_period_unanswered_at_start;
   }
+  if (coordinator_.silent(now)) return options_.request_period;  // nobody answers: no reason to hurry
+  const bool answered = requests_answered_ == requests_;
   if (!clock_.synchronised()) return answered ? Duration::zero() : options_.request_period_unanswered_at_start;
   return answered ? options_.request_period : options_.request_period_unanswered;
 }

@@ -92,9 +92,8 @@ std::optional<Timekeeper::Filter> Timekeeper::after_leap(const Measurement& m, D
   // A clock that leapt ahead is as much further ahead of the swarm's.
   const double innovation_ns = m.offset_ns - f.offset_ns;
   const double unlike_ns = std::abs(innovation_ns + nanoseconds(leap));
-  if (std::abs(innovation_ns) <= f.bound_ns(m) || unlike_ns > nanoseconds(options_.leap_seen_to) + 0.5 * m.delay_ns) {
-    return std::nullopt;
-  }
+  const double seen_to_ns = std::max(nanoseconds(options_.leap_seen_to), 0.5 * std::abs(nanoseconds(leap)));
+  if (std::abs(innovation_ns) <= f.bound_ns(m) || unlike_ns > seen_to_ns) return std::nullopt;
   f.offset_ns = m.offset_ns;
   f.asymmetry_ns = 0.5 * m.delay_ns;
   f.p00 = m.sigma_ns * m.sigma_ns;

@@ -158,6 +158,7 @@ TEST_F(LeapTest, OfSecondsIsFoundOutAtOnceToo) {
   live(seconds(1));
   EXPECT_EQ(wrong_, 0);
   EXPECT_LT(longest_silence_, milliseconds(250)) << "it begins where its vehicle has got to";
+  EXPECT_EQ(heard_.find("alone"), std::string::npos) << "nobody was silent";
 }
 
 // What it flies by a clock that leapt is not what it forgets by it: a ramp that would have passed by then has not.
@@ -182,6 +183,18 @@ TEST_F(LeapTest, IsFoundOutWithoutAVehicleThatTellsWhereABeatShowsIt) {
   live(seconds(1));
   EXPECT_EQ(wrong_, 0);
   EXPECT_LE(longest_silence_, milliseconds(70));
+}
+
+TEST_F(LeapTest, IsFoundOutWhereMessagesAreLateBySometimesMore) {
+  for (int i = 0; i < 100; ++i) {
+    on_board_ = milliseconds(i % 5 == 0 ? 9 : 1);
+    live(milliseconds(10));
+  }
+  begin_counting();
+  leap(milliseconds(50));
+  live(milliseconds(500));
+  EXPECT_EQ(wrong_, 0);
+  EXPECT_LE(longest_silence_, milliseconds(80));
 }
 
 TEST_F(LeapTest, IsWaitedForNoLongerThanItHasTo) {

@@ -3,8 +3,8 @@
 // enough exchanges contradict what is known of swarm time (protocol/timekeeper.hpp).
 //
 // Intuition: how old a message seems when it arrives is its way, which hardly varies, and the difference of two clocks,
-// which nobody has to know. When the own clock leaps, everything that arrives is older by the leap from then on; when it
-// stands still, younger. A machine is suspended, a virtual one is paused or migrated, a hypervisor corrects it.
+// which nobody has to know. When the own clock leaps, everything that arrives is older by the leap from then on; when
+// it stands still, younger. A machine is suspended, a virtual one is paused or migrated, a hypervisor corrects it.
 //
 //   age      arrived − stamp, by two clocks                                                      ns
 //   usual    among the ages of the last kWindow messages, or no further off than they vary; at least kUnusual

@@ -62,7 +62,7 @@ struct TimekeeperOptions {
   int exchanges_to_trust = 4;
   int contradictions_to_find_anew = 5;
   Duration contradictions_spread = std::chrono::milliseconds(750);  ///< over at least that: not one burst of them
-  Duration leap_seen_to = std::chrono::milliseconds(5);  ///< by other witnesses; or to half of it
+  Duration leap_seen_to = std::chrono::milliseconds(5);             ///< by other witnesses; or to half of it
 };
 
 class Timekeeper {

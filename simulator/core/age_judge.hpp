@@ -10,9 +10,9 @@
 //
 // The least delay is the offset plus the shortest way there is, and the shortest way hardly varies. The fourth least
 // serves as well and is not moved by kLying stamps: an agent whose clock leaps says two or three before it sees it, and
-// for a second all others would be taken for late by the leap. The window is what follows a drift (300 ppm between the clocks
-// are 0.3 ms of age, for all carriers alike, and a common shift moves no load), a clock that is walked to a new time,
-// and an agent that starts again: after a silence as long as the window nothing of the past is left.
+// for a second all others would be taken for late by the leap. The window is what follows a drift (300 ppm between the
+// clocks are 0.3 ms of age, for all carriers alike, and a common shift moves no load), a clock that is walked to a new
+// time, and an agent that starts again: after a silence as long as the window nothing of the past is left.
 //
 // Each carrier is judged by its own setpoints alone. So the offset of its own clock against the swarm's cancels here
 // and stays where it belongs: in the place it flies to. One judge for all carriers, or the coordinator's clock, would

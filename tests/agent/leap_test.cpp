@@ -119,7 +119,8 @@ class LeapTest : public AgentTest {
     if (out.time_request && answered_) {
       const SwarmTime then = truly() + way_;
       const protocol::TimeRequest& asked = *out.time_request;
-      send(2 * way_, TimeReplyArrived{{1, asked.incarnation, asked.sequence, term_, asked.sent, then, then, 0, ""}, {}});
+      send(2 * way_,
+           TimeReplyArrived{{1, asked.incarnation, asked.sequence, term_, asked.sent, then, then, 0, ""}, {}});
     }
     if (!out.setpoint) return;
     const Duration off = out.setpoint->swarm_time - truly();

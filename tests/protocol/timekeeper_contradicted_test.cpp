@@ -195,7 +195,8 @@ TEST(TimekeeperContradicted, ALieAtTheStartIsSeenThroughBeforeAnybodyReadsIt) {
             keeper.uncertainty(clock.show(exchanges.complete())));
 }
 
-// -------------------------------------------------------------------------- a leap of the own clock that others saw, too
+// -------------------------------------------------------------------------- a leap of the own clock that others saw,
+// too
 
 TEST(TimekeeperContradicted, ALeapThatWasSeenIsFoundByOneExchange) {
   for (const Duration leap : {milliseconds(5), milliseconds(300), milliseconds(-20), milliseconds(5000)}) {

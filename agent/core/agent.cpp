@@ -329,6 +329,7 @@ void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
   const protocol::Exchange exchange{reply.request_sent, reply.request_received, reply.reply_sent, event.arrived};
   const std::optional<Duration> suspected = suspected_before(exchange);
   const Verdict verdict = clock_.observe(exchange, now, suspected);
+  contradicted_ = verdict == Verdict::kContradiction;
   if (verdict == Verdict::kLeapt) {
     leapt(now, *time_before - clock_.at(now), flown, out);
   } else if (verdict == Verdict::kFoundAnew) {
@@ -347,7 +348,8 @@ void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
   } else if (verdict != Verdict::kTaken) {
     ++dropped_.nonsense;
     return;
-  } else if (before && suspected && refutes(exchange, *time_before - (now - event.arrived), *suspected)) {
+  } else if (before && watch_.suspicion() && suspected &&
+             refutes(exchange, *time_before - (now - event.arrived), *suspected)) {
     watch_.refuted();
   }
   if (!before && clock_.synchronised()) {

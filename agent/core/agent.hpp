@@ -187,6 +187,7 @@ class Agent {
   std::optional<LocalTime> flown_at_;     ///< the last setpoint, or where the vehicle was when it began
   std::optional<LocalTime> awake_since_;  ///< after it was stopped, or not followed: the vehicle has gone on
   std::optional<LocalTime> doubted_at_;
+  bool contradicted_ = false;  ///< by the last exchange
   bool adopts_later_ = false;  ///< what was heard while the clock was in doubt
 
   std::uint64_t setpoints_ = 0;

@@ -29,6 +29,18 @@ void Ages::keep(Duration age) {
   greatest_ = *greatest;
 }
 
+std::optional<Duration> Ages::lately() const {
+  if (count_ < kEnough + kFew) return std::nullopt;
+  const std::size_t kept = std::min(count_, kWindow);
+  Duration before = Duration::max();
+  Duration last = Duration::max();
+  for (std::size_t back = 1; back <= kept; ++back) {
+    Duration& least = back <= kFew ? last : before;
+    least = std::min(least, ages_[(count_ - back) % kWindow]);
+  }
+  return last - before;
+}
+
 void Ages::shift(Duration by) {
   for (Duration& age : ages_) age += by;
   least_ += by;
@@ -76,6 +88,13 @@ void ClockWatch::confirm(LocalTime arrived) {
   confirmed_ = std::max(confirmed_, arrived);
   suspicion_.reset();
   if (late_at_ && arrived >= *late_at_ - kLate) late_at_.reset();
+}
+
+std::optional<Duration> ClockWatch::lately() const {
+  if (suspicion_) return suspicion_->leap;
+  const std::optional<Duration> step = vehicle_.lately();
+  if (!step || std::max(*step, -*step) <= Ages::kUnusual) return std::nullopt;
+  return step;
 }
 
 void ClockWatch::leapt(Duration by) {

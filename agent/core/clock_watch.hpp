@@ -20,9 +20,11 @@
 // what such a beat shows is not trusted before something that arrived just before it, or after it, was as usual. A
 // late beat and a beacon that is strange are a suspicion as well: not every vehicle tells states.
 //
-// Blind: for the first kEnough messages, to leaps below kUnusual, to those by which ages vary anyway, and to any where
-// they vary by more than kSteady; and to those within a beat where the vehicle stamps by the very clock that leapt, or
-// does not tell.
+// A leap by less than ages vary raises no suspicion. But when an exchange contradicts what is known, the least age of
+// the last few messages says whether it is this clock that leapt (lately).
+//
+// Blind: for the first kEnough messages, to leaps below kUnusual, and where ages vary by more than kSteady; and to
+// leaps within a beat where the vehicle stamps by the very clock that leapt, or does not tell.
 
 #include <algorithm>
 #include <array>
@@ -39,6 +41,7 @@ class Ages {
  public:
   static constexpr std::size_t kWindow = 32;
   static constexpr std::size_t kEnough = 16;
+  static constexpr std::size_t kFew = 4;
   static constexpr Duration kUnusual = std::chrono::milliseconds(2);
   static constexpr Duration kSteady = std::chrono::milliseconds(50);
 
@@ -53,6 +56,9 @@ class Ages {
     const Duration margin = std::max(kUnusual, greatest_ - least_);
     return age >= least_ - margin && age <= greatest_ + margin;
   }
+  /// How much greater the least of the last few is than the least before them; absent: there are too few. The least
+  /// hardly varies even where ages do, but it takes a few to know it.
+  [[nodiscard]] std::optional<Duration> lately() const;
   /// The clock here has leapt: so have all ages.
   void shift(Duration by);
   void begin_anew() { *this = Ages(); }
@@ -95,6 +101,8 @@ class ClockWatch {
   [[nodiscard]] const std::optional<Suspicion>& suspicion() const { return suspicion_; }
   /// Whether what the clock shows may be wrong by a leap.
   [[nodiscard]] bool doubts() const { return suspicion_ || late_at_; }
+  /// What the vehicle's messages say that the clock has leapt by lately, suspected or not.
+  [[nodiscard]] std::optional<Duration> lately() const;
   /// Until when messages were as usual.
   [[nodiscard]] LocalTime confirmed() const { return confirmed_; }
 

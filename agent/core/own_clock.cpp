@@ -39,8 +39,8 @@ bool Agent::doubts_clock(LocalTime now) const {
 
 std::optional<Duration> Agent::suspected_before(const protocol::Exchange& exchange) const {
   const auto& suspicion = watch_.suspicion();
-  if (!suspicion || exchange.request_sent < suspicion->since) return std::nullopt;
-  return suspicion->leap;
+  if (suspicion && exchange.request_sent < suspicion->since) return std::nullopt;
+  return watch_.lately();
 }
 
 /// It would have to be the network's asymmetry that hides a leap.

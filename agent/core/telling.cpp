@@ -77,7 +77,7 @@ Duration Agent::request_period(LocalTime now) const {
   if (coordinator_.silent(now)) return options_.request_period;  // nobody answers: no reason to hurry
   const bool answered = requests_answered_ == requests_;
   if (!clock_.synchronised()) return answered ? Duration::zero() : options_.request_period_unanswered_at_start;
-  return answered ? options_.request_period : options_.request_period_unanswered;
+  return answered && !contradicted_ ? options_.request_period : options_.request_period_unanswered;
 }
 
 }  // namespace gyre::agent

@@ -222,7 +222,7 @@ TEST(TimekeeperContradicted, ANetworkThatGotSlowerIsNoLeap) {
   Exchange e = s.exchanges.at(s.now);
   // All of it on the way back: half of it is how wrong an exchange can be.
   e.reply_received += milliseconds(20);
-  EXPECT_EQ(s.keeper.observe(e, e.reply_received, milliseconds(20)), Verdict::kTaken);
+  EXPECT_EQ(s.keeper.observe(e, e.reply_received, milliseconds(12)), Verdict::kTaken);
   s.now += kPeriod;
   EXPECT_EQ(s.lie({}, milliseconds(20)), Verdict::kTaken);
   EXPECT_LE(magnitude(s.error()), s.uncertainty());

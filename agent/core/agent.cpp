@@ -77,7 +77,6 @@ void Agent::on(LocalTime now, const Tick& /*tick*/, Outputs& out) {
   }
   const std::optional<SwarmTime> time = swarm_time(now);
   if (time && !doubts_clock(now)) {
-    if (adopts_later_) adopt(now, out);
     protocol::settle(course_, *time);
     const auto r = reference(course_, *time);
     if (r && back_at_the_vehicle(now)) send(now, setpoint(*time, *r), out);
@@ -224,9 +223,7 @@ void Agent::tell_plans(LocalTime now, Outputs& out) {
 
 void Agent::adopt(LocalTime now, Outputs& out) {
   const std::optional<SwarmTime> time = swarm_time(now);
-  if (!time || !believed_) return;
-  adopts_later_ = doubts_clock(now);
-  if (adopts_later_) return;
+  if (!time || !believed_ || doubts_clock(now)) return;  // the next beacon says it again
   const std::uint64_t confirmed_before = confirmed_;
   if (const auto& proposal = heard_->proposal; proposal && confirms(*proposal)) confirmed_ = proposal->revision;
   const bool confirmed = confirmed_ != confirmed_before;

@@ -188,7 +188,6 @@ class Agent {
   std::optional<LocalTime> awake_since_;  ///< after it was stopped, or not followed: the vehicle has gone on
   std::optional<LocalTime> doubted_at_;
   bool contradicted_ = false;  ///< by the last exchange
-  bool adopts_later_ = false;  ///< what was heard while the clock was in doubt
 
   std::uint64_t setpoints_ = 0;
   std::uint64_t statuses_ = 0;

@@ -93,7 +93,8 @@ std::optional<Timekeeper::Filter> Timekeeper::after_leap(const Measurement& m, D
   const double innovation_ns = m.offset_ns - f.offset_ns;
   const double unlike_ns = std::abs(innovation_ns + nanoseconds(leap));
   const double seen_to_ns = std::max(nanoseconds(options_.leap_seen_to), 0.5 * std::abs(nanoseconds(leap)));
-  if (std::abs(innovation_ns) <= f.bound_ns(m) || unlike_ns > seen_to_ns) return std::nullopt;
+  // The asymmetry that may hide in all that is known is no excuse: others have seen that it is the clock.
+  if (std::abs(innovation_ns) <= f.bound_ns(m) - f.asymmetry_ns || unlike_ns > seen_to_ns) return std::nullopt;
   f.offset_ns = m.offset_ns;
   f.asymmetry_ns = 0.5 * m.delay_ns;
   f.p00 = m.sigma_ns * m.sigma_ns;

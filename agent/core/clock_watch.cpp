@@ -5,24 +5,18 @@
 namespace gyre::agent {
 
 Ages::Seems Ages::hear(Duration age) {
-  if (!known()) {
-    keep(age);
-    return Seems::kUnknown;
-  }
-  if (!usual(age)) {
-    if (++in_a_row_ > kInARow) begin_anew();
-    return Seems::kStrange;
-  }
-  if (in_a_row_ > 0 && ++alone_ > kAlone) begin_anew();
-  in_a_row_ = 0;
+  const bool strange = known() && !usual(age);
+  in_a_row_ = strange ? in_a_row_ + 1 : 0;
+  if (in_a_row_ > kInARow) begin_anew();
+  if (strange && known()) return Seems::kStrange;
+  const Seems seems = known() ? Seems::kUsual : Seems::kUnknown;
   keep(age);
-  return Seems::kUsual;
+  return seems;
 }
 
 void Ages::keep(Duration age) {
   ages_[count_ % kWindow] = age;
   ++count_;
-  if (count_ % kWindow == 0) alone_ = 0;
   const auto end = ages_.begin() + static_cast<std::ptrdiff_t>(std::min(count_, kWindow));
   const auto [least, greatest] = std::minmax_element(ages_.begin(), end);
   least_ = *least;

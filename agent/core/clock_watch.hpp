@@ -64,8 +64,7 @@ class Ages {
   void begin_anew() { *this = Ages(); }
 
  private:
-  /// So many strange ones among kWindow, each alone, are what is usual from now on; so are so many in a row.
-  static constexpr int kAlone = 4;
+  /// So many strange ones in a row are what is usual from now on.
   static constexpr int kInARow = 64;
 
   void keep(Duration age);
@@ -75,7 +74,6 @@ class Ages {
   Duration least_{};
   Duration greatest_{};
   int in_a_row_ = 0;
-  int alone_ = 0;
 };
 
 class ClockWatch {

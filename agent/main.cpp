@@ -21,6 +21,7 @@ namespace {
 using gyre::LocalTime;
 using gyre::agent::Agent;
 using gyre::agent::Event;
+using gyre::agent::Heard;
 using gyre::agent::Outputs;
 using gyre::agent::PlanQuestion;
 using gyre::agent::PlanVerdict;
@@ -41,14 +42,20 @@ class Wire {
     status_ = node.writer<protocol::AgentStatus>(carrier);
     time_request_ = node.writer<protocol::TimeRequest>(carrier);
     held_ = node.writer<protocol::HeldPlans>(carrier);
-    node.read<protocol::Beacon>([this](protocol::Beacon b, LocalTime) { inbox_.push(std::move(b)); });
+    node.read<protocol::Beacon>([this](protocol::Beacon b, LocalTime arrived) {
+      inbox_.push(Heard<protocol::Beacon>{std::move(b), arrived});
+    });
     node.read<protocol::PlanOffer>([this](protocol::PlanOffer p, LocalTime) { inbox_.push(std::move(p)); }, carrier);
     node.read<protocol::TimeReply>(
         [this](const protocol::TimeReply& r, LocalTime arrived) {
           inbox_.push(gyre::agent::TimeReplyArrived{r, arrived});
         },
         carrier);
-    node.read<protocol::CarrierState>([this](const protocol::CarrierState& s, LocalTime) { inbox_.push(s); }, carrier);
+    node.read<protocol::CarrierState>(
+        [this](const protocol::CarrierState& s, LocalTime arrived) {
+          inbox_.push(Heard<protocol::CarrierState>{s, arrived});
+        },
+        carrier);
   }
 
   [[nodiscard]] const std::deque<Event>& sleep_until(LocalTime deadline) { return inbox_.sleep_until(deadline); }

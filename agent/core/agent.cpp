@@ -52,6 +52,7 @@ Outputs Agent::step(LocalTime now, const Event& event) {
     vehicle_.reset();
   }
   stepped_at_ = now;
+  watch_.step(now);
   std::visit([&](const auto& e) { on(now, e, out); }, event);
   out.next_tick = next_tick_;
   return out;
@@ -76,13 +77,12 @@ void Agent::on(LocalTime now, const Tick& tick, Outputs& out) {
     out.time_request = protocol::TimeRequest{options_.carrier, options_.incarnation, ++requests_, now};
   }
   const std::optional<SwarmTime> time = swarm_time(now);
-  if (time) {
+  if (time && !doubts_clock(now)) {
     protocol::settle(course_, *time);
     const auto r = reference(course_, *time);
-    const bool doubted = doubted_at_ && now - *doubted_at_ <= options_.doubt;
-    if (r && !doubted && back_at_the_vehicle(now)) send(now, setpoint(*time, *r), out);
+    if (r && back_at_the_vehicle(now)) send(now, setpoint(*time, *r), out);
   }
-  const bool alone = coordinator_.ever_heard() && coordinator_.silent(now);
+  const bool alone = coordinator_.ever_heard() && coordinator_.silent(now) && !doubts_clock(now);
   if (alone != alone_) {
     alone_ = alone;
     out.notices.push_back({alone ? Notice::Level::kWarning : Notice::Level::kInfo,
@@ -224,7 +224,7 @@ void Agent::tell_plans(LocalTime now, Outputs& out) {
 
 void Agent::adopt(LocalTime now, Outputs& out) {
   const std::optional<SwarmTime> time = swarm_time(now);
-  if (!time || !believed_) return;
+  if (!time || !believed_ || doubts_clock(now)) return;  // the next beacon says it again
   const std::uint64_t confirmed_before = confirmed_;
   if (const auto& proposal = heard_->proposal; proposal && confirms(*proposal)) confirmed_ = proposal->revision;
   const bool confirmed = confirmed_ != confirmed_before;
@@ -324,9 +324,13 @@ void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
   std::optional<Command> flown;
   if (before && reference(course_, *time_before)) flown = merge_.apply(*time_before, path(course_));
   using Verdict = protocol::Timekeeper::Verdict;
-  const Verdict verdict =
-      clock_.observe({reply.request_sent, reply.request_received, reply.reply_sent, event.arrived}, now);
-  if (verdict == Verdict::kFoundAnew) {
+  const protocol::Exchange exchange{reply.request_sent, reply.request_received, reply.reply_sent, event.arrived};
+  const std::optional<Duration> suspected = suspected_before(exchange);
+  const Verdict verdict = clock_.observe(exchange, now, suspected);
+  contradicted_ = verdict == Verdict::kContradiction;
+  if (verdict == Verdict::kLeapt) {
+    leapt(now, *time_before - clock_.at(now), flown, out);
+  } else if (verdict == Verdict::kFoundAnew) {
     out.notices.push_back({Notice::Level::kWarning,
                            "a clock jumped, this one or the coordinator's: swarm time was found "
                            "anew"});
@@ -342,6 +346,9 @@ void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
   } else if (verdict != Verdict::kTaken) {
     ++dropped_.nonsense;
     return;
+  } else if (before && watch_.suspicion() && suspected &&
+             refutes(exchange, *time_before - (now - event.arrived), *suspected)) {
+    watch_.refuted();
   }
   if (!before && clock_.synchronised()) {
     out.notices.push_back(

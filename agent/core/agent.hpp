@@ -11,6 +11,7 @@
 #include <optional>
 #include <variant>
 
+#include "agent/core/clock_watch.hpp"
 #include "agent/core/merge.hpp"
 #include "agent/core/plan_judge.hpp"
 #include "agent/core/plan_store.hpp"
@@ -73,8 +74,14 @@ struct TimeReplyArrived {
   protocol::TimeReply reply;
   LocalTime arrived{};
 };
-using Event =
-    std::variant<Tick, protocol::Beacon, protocol::PlanOffer, TimeReplyArrived, protocol::CarrierState, PlanVerdict>;
+/// With the moment of its arrival, by which the clock here is watched. Without one it is taken as it is.
+template <class Message>
+struct Heard {
+  Message message;
+  LocalTime arrived{};
+};
+using Event = std::variant<Tick, protocol::Beacon, protocol::PlanOffer, TimeReplyArrived, protocol::CarrierState,
+                           PlanVerdict, Heard<protocol::Beacon>, Heard<protocol::CarrierState>>;
 
 struct Outputs {
   std::optional<protocol::TimeRequest> time_request;
@@ -110,7 +117,16 @@ class Agent {
   void on(LocalTime now, const TimeReplyArrived& arrived, Outputs& out);
   void on(LocalTime now, const protocol::CarrierState& state, Outputs& out);
   void on(LocalTime now, const PlanVerdict& verdict, Outputs& out);
+  void on(LocalTime now, const Heard<protocol::Beacon>& heard, Outputs& out);
+  void on(LocalTime now, const Heard<protocol::CarrierState>& heard, Outputs& out);
 
+  /// Whether what the clock here shows may be wrong by a leap: then nothing is done by it that cannot be undone.
+  [[nodiscard]] bool doubts_clock(LocalTime now) const;
+  /// What this clock is suspected to have leapt by, of an exchange that can tell.
+  [[nodiscard]] std::optional<Duration> suspected_before(const protocol::Exchange& exchange) const;
+  /// Whether swarm time, as it was read here when the reply `arrived`, is what the exchange says.
+  [[nodiscard]] static bool refutes(const protocol::Exchange& exchange, SwarmTime arrived, Duration leap);
+  void leapt(LocalTime now, Duration by, const std::optional<Command>& flown, Outputs& out);
   [[nodiscard]] Duration request_period(LocalTime now) const;
   [[nodiscard]] bool accepts_term(std::uint64_t term, Outputs& out);
   void send(LocalTime now, const protocol::Setpoint& setpoint, Outputs& out);
@@ -138,6 +154,7 @@ class Agent {
 
   AgentOptions options_;
   protocol::Timekeeper clock_;
+  ClockWatch watch_;
   PlanStore plans_;
   std::uint64_t offers_taken_ = 0;                  ///< the newest offer of this term
   std::optional<protocol::PlanOffer> early_offer_;  ///< of a term that is not believed yet: none is said twice
@@ -170,6 +187,7 @@ class Agent {
   std::optional<LocalTime> flown_at_;     ///< the last setpoint, or where the vehicle was when it began
   std::optional<LocalTime> awake_since_;  ///< after it was stopped, or not followed: the vehicle has gone on
   std::optional<LocalTime> doubted_at_;
+  bool contradicted_ = false;  ///< by the last exchange
 
   std::uint64_t setpoints_ = 0;
   std::uint64_t statuses_ = 0;

@@ -70,10 +70,14 @@ protocol::AgentStatus Agent::status(LocalTime now) {
 }
 
 Duration Agent::request_period(LocalTime now) const {
+  // The answer decides whether it may go on; and a leap makes the coordinator seem silent, too.
+  if (const auto& suspicion = watch_.suspicion()) {
+    return requested_at_ < suspicion->since ? Duration::zero() : options_.request_period_unanswered_at_start;
+  }
   if (coordinator_.silent(now)) return options_.request_period;  // nobody answers: no reason to hurry
   const bool answered = requests_answered_ == requests_;
   if (!clock_.synchronised()) return answered ? Duration::zero() : options_.request_period_unanswered_at_start;
-  return answered ? options_.request_period : options_.request_period_unanswered;
+  return answered && !contradicted_ ? options_.request_period : options_.request_period_unanswered;
 }
 
 }  // namespace gyre::agent

@@ -37,14 +37,14 @@ double Timekeeper::excess_ns(double delay_ns) const {
   return std::max(0.0, delay_ns - least_ns) + kLuck * std::max(mean_ns, delay_ns) / static_cast<double>(count);
 }
 
-Timekeeper::Verdict Timekeeper::observe(const Exchange& e, LocalTime now) {
+Timekeeper::Verdict Timekeeper::observe(const Exchange& e, LocalTime now, std::optional<Duration> leap) {
   GYRE_ENSURE(now >= e.reply_received, "a reply is told of after it was received");
   if (!usable(e.request_sent) || !usable(e.request_received) || !usable(e.reply_sent) || !usable(e.reply_received)) {
     return Verdict::kNonsense;
   }
   const Duration away = e.reply_received - e.request_sent;
   const Duration inside = e.reply_sent - e.request_received;
-  const Duration delay = away - inside;
+  const Duration delay = e.delay();
   if (inside < Duration::zero() || delay < Duration::zero() || away > options_.delay_max) return Verdict::kNonsense;
   // A copy of an exchange is not a second witness.
   if (running_ && (e.request_sent <= request_sent_ || e.reply_received < filter_.at)) return Verdict::kNonsense;
@@ -59,10 +59,14 @@ Timekeeper::Verdict Timekeeper::observe(const Exchange& e, LocalTime now) {
   const Measurement m{e.reply_received, nanoseconds(offset - origin_), delay_ns, sigma_ns};
 
   const bool was_read = synchronised();
+  const std::optional<Filter> leapt = running_ && leap ? after_leap(m, *leap) : std::nullopt;
   bool anew = !running_;
   if (anew) {
     running_ = true;
     filter_ = begin(m);
+  } else if (leapt) {
+    filter_ = *leapt;
+    drop_rival();
   } else if (filter_.follow(m)) {
     // A slow exchange agrees with both, and says nothing of which is right.
     if (rival_ && !rival_->follow(m)) drop_rival();
@@ -76,9 +80,26 @@ Timekeeper::Verdict Timekeeper::observe(const Exchange& e, LocalTime now) {
   if (anew) filter_.expect_drift(options_.drift_max / 3.0);
   delays_[delay_count_++ % delays_.size()] = delay_ns;
   // Until there is enough to fly by nobody does, and the estimate is taken as it is.
-  steer(now, anew || !was_read);
+  steer(now, anew || leapt || !was_read);
   ++taken_;
+  if (leapt && was_read) return Verdict::kLeapt;
   return anew && was_read ? Verdict::kFoundAnew : Verdict::kTaken;
+}
+
+std::optional<Timekeeper::Filter> Timekeeper::after_leap(const Measurement& m, Duration leap) const {
+  Filter f = filter_;
+  f.predict(m.at);
+  // A clock that leapt ahead is as much further ahead of the swarm's.
+  const double innovation_ns = m.offset_ns - f.offset_ns;
+  const double unlike_ns = std::abs(innovation_ns + nanoseconds(leap));
+  const double seen_to_ns = std::max(nanoseconds(options_.leap_seen_to), 0.5 * std::abs(nanoseconds(leap)));
+  // The asymmetry that may hide in all that is known is no excuse: others have seen that it is the clock.
+  if (std::abs(innovation_ns) <= f.bound_ns(m) - f.asymmetry_ns || unlike_ns > seen_to_ns) return std::nullopt;
+  f.offset_ns = m.offset_ns;
+  f.asymmetry_ns = 0.5 * m.delay_ns;
+  f.p00 = m.sigma_ns * m.sigma_ns;
+  f.p01 = 0.0;
+  return f;
 }
 
 bool Timekeeper::convinces(const Measurement& contradiction) {
@@ -140,13 +161,16 @@ void Timekeeper::Filter::predict(LocalTime local) {
   at = local;
 }
 
+double Timekeeper::Filter::bound_ns(const Measurement& m) const {
+  // A measurement may be off by half its delay, in swarm time, whatever the network did, and by no more.
+  return kBeyondDoubt * std::sqrt(p00) + asymmetry_ns + 0.5 * (1.0 + std::abs(drift)) * m.delay_ns;
+}
+
 bool Timekeeper::Filter::follow(const Measurement& m) {
   predict(m.at);
   const double innovation_ns = m.offset_ns - offset_ns;
   const double variance = p00 + m.sigma_ns * m.sigma_ns;
-  // A measurement may be off by half its delay, in swarm time, whatever the network did, and by no more.
-  const double bound_ns = 0.5 * (1.0 + std::abs(drift)) * m.delay_ns;
-  if (std::abs(innovation_ns) > kBeyondDoubt * std::sqrt(p00) + asymmetry_ns + bound_ns) return false;
+  if (std::abs(innovation_ns) > bound_ns(m)) return false;
   const double gain_offset = p00 / variance;
   const double gain_drift = p01 / variance;
   offset_ns += gain_offset * innovation_ns;

@@ -26,7 +26,9 @@
 //   5. without exchanges the uncertainty grows with the drift's own uncertainty and with a bound on its wander;
 //   6. a network that is slow one way only pulls every exchange the same way, and no averaging helps: half of the delay
 //      is carried along, weighted as the filter weighs the offsets, and is part of the uncertainty;
-//   7. the filter begins with a drift that may be anything supported, and the exchanges soon narrow it; the rival
+//   7. where other witnesses say that this clock leapt, and by how much (agent/core/clock_watch.hpp), one exchange that
+//   no network can explain and that says the same is enough; the drift is what it was;
+//   8. the filter begins with a drift that may be anything supported, and the exchanges soon narrow it; the rival
 //   begins
 //      with one that may be anything at all, so that a clock too fast or too slow is measured, and refused in words.
 //
@@ -45,6 +47,9 @@ struct Exchange {
   SwarmTime request_received{};
   SwarmTime reply_sent{};
   LocalTime reply_received{};
+
+  /// On the two ways together. Of times that are usable.
+  [[nodiscard]] Duration delay() const { return (reply_received - request_sent) - (reply_sent - request_received); }
 };
 
 struct TimekeeperOptions {
@@ -57,6 +62,7 @@ struct TimekeeperOptions {
   int exchanges_to_trust = 4;
   int contradictions_to_find_anew = 5;
   Duration contradictions_spread = std::chrono::milliseconds(750);  ///< over at least that: not one burst of them
+  Duration leap_seen_to = std::chrono::milliseconds(5);             ///< by other witnesses; or to half of it
 };
 
 class Timekeeper {
@@ -64,6 +70,7 @@ class Timekeeper {
   enum class Verdict {
     kTaken,
     kFoundAnew,      ///< taken, and swarm time as it is read jumped to it, either way; once synchronised()
+    kLeapt,          ///< the same at once: this clock had leapt, as others saw
     kNonsense,       ///< time ran backwards in it, or a delay no network has, or not newer than the one before
     kContradiction,  ///< against all that is known; not used
   };
@@ -72,7 +79,8 @@ class Timekeeper {
 
   /// `now`: when it is told, not before the reply was received nor before any time asked for. The clock that is read
   /// is steered from there on: what was read stays read, however long the reply waited in a queue.
-  Verdict observe(const Exchange& exchange, LocalTime now);
+  /// `leap`: what this clock seems to have leapt by before the exchange began, as other witnesses have it.
+  Verdict observe(const Exchange& exchange, LocalTime now, std::optional<Duration> leap = std::nullopt);
   /// A new coordinator keeps the swarm's time as well as it learned it: allow for an error of this size.
   void doubt(Duration error);
 
@@ -108,6 +116,8 @@ class Timekeeper {
     void predict(LocalTime local);
     /// False for a contradiction, from which nothing is learned.
     [[nodiscard]] bool follow(const Measurement& m);
+    /// How far off it may be where nothing is wrong. Of a filter that was predicted to its moment.
+    [[nodiscard]] double bound_ns(const Measurement& m) const;
     /// What is known of a drift that is supported, without any exchange: that it is 0, give or take.
     void expect_drift(double sigma);
   };
@@ -115,6 +125,8 @@ class Timekeeper {
   /// How much of a delay the network did not need.
   [[nodiscard]] double excess_ns(double delay_ns) const;
   [[nodiscard]] Filter begin(const Measurement& m) const;
+  /// The filter as it is after a leap that it did not see coming; absent: this exchange says nothing of it.
+  [[nodiscard]] std::optional<Filter> after_leap(const Measurement& m, Duration leap) const;
   /// Whether the rival has convinced.
   [[nodiscard]] bool convinces(const Measurement& contradiction);
   void drop_rival();

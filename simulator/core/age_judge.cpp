@@ -1,6 +1,8 @@
 #include "simulator/core/age_judge.hpp"
 
 #include <algorithm>
+#include <array>
+#include <tuple>
 
 #include "simulator/core/extrapolation.hpp"
 
@@ -11,14 +13,14 @@ Duration AgeJudge::age(SwarmTime stamp, LocalTime arrived) {
   while (!heard_.empty() && arrived - heard_.front().arrived >= kAgeWindow) heard_.pop_front();
   heard_.push_back({arrived, delay});
 
-  Duration least = Duration::max();
-  Duration second_least = Duration::max();
+  std::array<Duration, kLying + 1> least{};  // in order
+  least.fill(Duration::max());
   for (const Heard& heard : heard_) {
-    second_least = std::min(second_least, std::max(least, heard.delay));
-    least = std::min(least, heard.delay);
+    Duration greater = heard.delay;
+    for (Duration& kept : least) std::tie(kept, greater) = std::minmax({kept, greater});
   }
-  if (heard_.size() == 1) return Duration{};  // nothing to compare with
-  return std::clamp(delay - second_least, Duration{}, from_seconds(kExtrapolationHorizon_s));
+  const Duration usual = least[std::min(heard_.size() - 1, kLying)];
+  return std::clamp(delay - usual, Duration{}, from_seconds(kExtrapolationHorizon_s));
 }
 
 }  // namespace gyre::simulator

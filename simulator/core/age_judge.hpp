@@ -6,12 +6,13 @@
 // cable of 2e4 N/m makes 60 N of them. A real vehicle goes by the stamp; so does this one.
 //
 //   delay   arrived − stamp: true delay, plus an offset between two clocks that nobody knows        ns
-//   age     delay − the second least delay of the last kAgeWindow, within 0..kExtrapolationHorizon_s
+//   age     delay − the fourth least delay of the last kAgeWindow, within 0..kExtrapolationHorizon_s
 //
-// The least delay is the offset plus the shortest way there is, and the shortest way hardly varies. The second least
-// serves as well and is not moved by one lying stamp. The window is what follows a drift (300 ppm between the clocks
-// are 0.3 ms of age, for all carriers alike, and a common shift moves no load), a clock that is walked to a new time,
-// and an agent that starts again: after a silence as long as the window nothing of the past is left.
+// The least delay is the offset plus the shortest way there is, and the shortest way hardly varies. The fourth least
+// serves as well and is not moved by kLying stamps: an agent whose clock leaps says two or three before it sees it, and
+// for a second all others would be taken for late by the leap. The window is what follows a drift (300 ppm between the
+// clocks are 0.3 ms of age, for all carriers alike, and a common shift moves no load), a clock that is walked to a new
+// time, and an agent that starts again: after a silence as long as the window nothing of the past is left.
 //
 // Each carrier is judged by its own setpoints alone. So the offset of its own clock against the swarm's cancels here
 // and stays where it belongs: in the place it flies to. One judge for all carriers, or the coordinator's clock, would
@@ -19,6 +20,7 @@
 //
 // Reference: D. L. Mills, RFC 5905, clock filter (least delay).
 
+#include <cstddef>
 #include <deque>
 
 #include "common/base/time.hpp"
@@ -26,6 +28,7 @@
 namespace gyre::simulator {
 
 inline constexpr Duration kAgeWindow = std::chrono::seconds(1);
+inline constexpr std::size_t kLying = 3;
 
 class AgeJudge {
  public:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/base/random_stream.hpp"
@@ -115,10 +116,10 @@ struct Settled {
   Settled() { run(keeper, exchanges, kBegin, now); }
 
   [[nodiscard]] SwarmTime shown() const { return keeper.at(clock.show(now)); }
-  [[nodiscard]] Timekeeper::Verdict lie(Duration by) {
+  [[nodiscard]] Timekeeper::Verdict lie(Duration by, std::optional<Duration> leap = std::nullopt) {
     const Exchange e = shifted(exchanges.at(now), by);
     now = exchanges.complete();
-    return keeper.observe(e, e.reply_received);
+    return keeper.observe(e, e.reply_received, leap);
   }
   [[nodiscard]] Duration error() const { return test::error(keeper, clock, now); }
   [[nodiscard]] Duration uncertainty() const { return keeper.uncertainty(clock.show(now)); }

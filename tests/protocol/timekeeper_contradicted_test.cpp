@@ -195,5 +195,38 @@ TEST(TimekeeperContradicted, ALieAtTheStartIsSeenThroughBeforeAnybodyReadsIt) {
             keeper.uncertainty(clock.show(exchanges.complete())));
 }
 
+// -------------------------------------------------------------------------- a leap of the own clock that others saw,
+// too
+
+TEST(TimekeeperContradicted, ALeapThatWasSeenIsFoundByOneExchange) {
+  for (const Duration leap : {milliseconds(5), milliseconds(300), milliseconds(-20), milliseconds(5000)}) {
+    Settled s;
+    // Ahead of the swarm's by so much is the same as the swarm behind.
+    EXPECT_EQ(s.lie(-leap, leap + milliseconds(2)), Verdict::kLeapt);
+    EXPECT_LT(magnitude(s.error() + leap), microseconds(60)) << "seen to milliseconds, found to microseconds";
+    EXPECT_LT(s.uncertainty(), milliseconds(1));
+    const double drift_ppm = s.keeper.drift_ppm();
+    EXPECT_NEAR(drift_ppm, -80.0, 5.0) << "a leap says nothing of how fast it runs";
+  }
+}
+
+TEST(TimekeeperContradicted, ALeapThatIsNotTheOneSeenIsALie) {
+  Settled s;
+  EXPECT_EQ(s.lie(milliseconds(-50), milliseconds(20)), Verdict::kContradiction);
+  EXPECT_EQ(s.lie(milliseconds(-50), milliseconds(-50)), Verdict::kContradiction);
+  EXPECT_LE(magnitude(s.error()), s.uncertainty());
+}
+
+TEST(TimekeeperContradicted, ANetworkThatGotSlowerIsNoLeap) {
+  Settled s;
+  Exchange e = s.exchanges.at(s.now);
+  // All of it on the way back: half of it is how wrong an exchange can be.
+  e.reply_received += milliseconds(20);
+  EXPECT_EQ(s.keeper.observe(e, e.reply_received, milliseconds(12)), Verdict::kTaken);
+  s.now += kPeriod;
+  EXPECT_EQ(s.lie({}, milliseconds(20)), Verdict::kTaken);
+  EXPECT_LE(magnitude(s.error()), s.uncertainty());
+}
+
 }  // namespace
 }  // namespace gyre::protocol

@@ -71,8 +71,9 @@ TEST(Judges, SeeAnAgentThatTakesAProposalForACourse) {
   Sabotage s;
   // Before the others begin: it is ahead of them by as much for good.
   s.agent_hears = [](std::size_t agent, TrueTime, agent::Event& event) {
-    auto* beacon = std::get_if<protocol::Beacon>(&event);
-    if (agent != 0 || beacon == nullptr || !beacon->proposal) return;
+    auto* heard = std::get_if<agent::Heard<protocol::Beacon>>(&event);
+    if (agent != 0 || heard == nullptr || !heard->message.proposal) return;
+    protocol::Beacon* beacon = &heard->message;
     for (protocol::Ramp& ramp : beacon->proposal->pace.ramps) ramp.start -= std::chrono::milliseconds(500);
     beacon->course = *beacon->proposal;
   };
@@ -89,8 +90,9 @@ TEST(Judges, SeeAnAgentThatStopsLaterThanTheOthers) {
   EXPECT_TRUE(fly(scenario).good());
   Sabotage s;
   s.agent_hears = [](std::size_t agent, TrueTime, agent::Event& event) {
-    auto* beacon = std::get_if<protocol::Beacon>(&event);
-    if (agent == 1 && beacon != nullptr && beacon->course.lease) *beacon->course.lease += std::chrono::seconds(2);
+    auto* heard = std::get_if<agent::Heard<protocol::Beacon>>(&event);
+    if (agent != 1 || heard == nullptr || !heard->message.course.lease) return;
+    *heard->message.course.lease += std::chrono::seconds(2);
   };
   EXPECT_TRUE(finds(fly(scenario, s), "equilibrium"));
 }
@@ -207,8 +209,8 @@ TEST(Judges, SeeTwoCoordinatorsThatDoNotHearEachOther) {
 TEST(Judges, SeeASwarmThatDoesNotFindTogether) {
   Sabotage s;
   s.agent_hears = [](std::size_t agent, TrueTime now, agent::Event& event) {
-    auto* beacon = std::get_if<protocol::Beacon>(&event);
-    if (agent == 2 && at_or_after(now, 14.0) && beacon != nullptr) beacon->sequence = 0;
+    auto* heard = std::get_if<agent::Heard<protocol::Beacon>>(&event);
+    if (agent == 2 && at_or_after(now, 14.0) && heard != nullptr) heard->message.sequence = 0;
   };
   EXPECT_TRUE(finds(fly(calm(), s), "agreement"));
 }

@@ -228,6 +228,8 @@ const char* name(Deed deed) {
       return "stall";
     case Deed::kClockStop:
       return "clock stops";
+    case Deed::kClockLeap:
+      return "clock leaps";
     case Deed::kTwin:
       return "a second agent";
     case Deed::kSecondWorld:
@@ -278,6 +280,7 @@ std::string describe(const Action& a) {
       return out + text(" for %.3f s", seconds(a.length));
     case Deed::kTwin:
     case Deed::kClockStop:
+    case Deed::kClockLeap:
       return out + process() + text(" for %.3f s", seconds(a.length));
     case Deed::kCommand:
       return out + text(" %d", static_cast<int>(a.command));

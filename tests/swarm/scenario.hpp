@@ -26,6 +26,7 @@ enum class Deed {
   kSuspend,       ///< SIGSTOP of `process` for `length`: it neither runs nor reads its clock
   kStall,         ///< the main loop of `process` hangs for `length`; what arrives is stamped
   kClockStop,     ///< `process` sleeps for `length`, and so does its clock, as in a machine that is suspended
+  kClockLeap,     ///< the clock of an agent leaps ahead by `length`
   kTwin,          ///< for `length` there is one more agent of the carrier of `process`
   kSecondWorld,   ///< for `length` there is a second simulator, whose carriers rest where they began
   kCut,           ///< `cuts` from now on: one direction of a link each

@@ -163,6 +163,18 @@ void Swarm::act(const Action& a) {
       hold(a.process, a.length, true);
       processes_[a.process].jumped -= a.length;
       return;
+    case Deed::kClockLeap: {
+      Process& p = processes_[a.process];
+      if (!p.running() || now_ < p.held_until) return;
+      ++faults_.clock_leaps;
+      checkers_.clock_stopped(a.process - kCoordinators);
+      checkers_.found_anew(a.process - kCoordinators, now_);  // nobody knows of it before it shows
+      p.jumped += a.length;
+      // What it waits for is due sooner.
+      p.tick_at = std::max(now_ + Duration(1), p.tick_at - a.length);
+      schedule({p.tick_at, 0, Happening::kTick, a.process, p.life, nullptr});
+      return;
+    }
     case Deed::kTwin:
       if (processes_[twin()].running()) return;
       ++faults_.twins;

@@ -27,7 +27,8 @@ struct FaultCounts {
   std::uint64_t commands = 0, retunes = 0, unflyable = 0;
   std::uint64_t twins = 0, rivals_unheard = 0, second_worlds = 0;
   std::uint64_t late_verdicts = 0;
-  std::uint64_t losses_named = 0, leases_ended = 0, stuck = 0, turned_back = 0, clock_stops = 0, found_anew = 0;
+  std::uint64_t losses_named = 0, leases_ended = 0, stuck = 0, turned_back = 0, clock_stops = 0, clock_leaps = 0,
+                found_anew = 0;
 };
 
 /// Ways to break a swarm on purpose, to see that the judges notice. Empty ones change nothing.

@@ -27,6 +27,8 @@ struct Message {
           using T = std::decay_t<decltype(m)>;
           if constexpr (std::is_same_v<T, protocol::TimeReply>) {
             return agent::TimeReplyArrived{m, arrived};
+          } else if constexpr (std::is_same_v<T, protocol::Beacon> || std::is_same_v<T, protocol::CarrierState>) {
+            return agent::Heard<T>{m, arrived};
           } else if constexpr (std::is_constructible_v<agent::Event, T>) {
             return m;
           } else {

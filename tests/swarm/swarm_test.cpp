@@ -345,6 +345,25 @@ TEST_F(Silence, OfAnAgentWhoseClockStoodStillEndsWithinTwoSeconds) {
   }
 }
 
+TEST_F(Silence, OfAnAgentWhoseClockLeaptIsShorterThanAnybodyNotices) {
+  for (const double length_s : {0.005, 0.012, 0.02, 0.05, 0.3, 5.0}) {
+    for (const std::size_t load : {0U, 3U, 9U}) {
+      for (int phase = 0; phase < 10; ++phase) {
+        begin(load);
+        at(10.0 + 1e-3 * phase, Deed::kClockLeap).length = from_seconds(length_s);
+        // A leap within a beat or so is flown for a beat or two.
+        const double flown_s = length_s < 0.015 ? length_s : 0.0;
+        s_.residual_budget = cost::kCalm + flown_s * share_per_second();
+        EXPECT_LT(fly_until(20.0), s_.residual_budget) << length_s << " s, load " << load;
+        EXPECT_EQ(swarm_->faults().found_anew, 1U) << length_s;
+        std::string why;
+        EXPECT_TRUE(swarm_->agrees(std::chrono::milliseconds(2), &why)) << length_s << ": " << why;
+        EXPECT_TRUE(swarm_->merged()) << length_s;
+      }
+    }
+  }
+}
+
 TEST_F(Silence, OfACoordinatorWhoseClockStoodStillMovesNobodysTime) {
   for (const double length_s : {0.2, 0.7, 3.0, 20.0, 3600.0}) {
     for (const bool stops : {true, false}) {

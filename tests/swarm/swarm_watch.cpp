@@ -64,13 +64,12 @@ protocol::CarrierState Swarm::vehicle_state(std::size_t agent) {
   protocol::CarrierState s = vehicles_[agent].state(now_);
   if (sabotage_.vehicles_do_not_tell_whom) s.follows = 0;
   s.carrier = processes_[agent + kCoordinators].carrier;
+  s.stamp = LocalTime(now_.time_since_epoch());  // a clock that is right
   return s;
 }
 
 void Swarm::tell_vehicle_states() {
   const Process& twin_process = processes_[twin()];
-  // Somebody else tells states, too, or listens to them: then all of them are told.
-  const bool all = now_ < second_world_until_ || twin_process.running();
   const auto tell = [this](std::size_t p, const protocol::CarrierState& state) {
     if (processes_[p].running() && processes_[p].joined) arrive(p, Message{state});
   };
@@ -79,9 +78,7 @@ void Swarm::tell_vehicle_states() {
     Vehicle& vehicle = vehicles_[index];
     show_to_coordinators(p);
     const bool led = processes_[p].sends_setpoints || processes_[p].carrier == twin_process.carrier;
-    const bool alone = !led || now_ - vehicle.commanded_at() >= kLeftAlone;
-    if (alone) checkers_.alone(index, now_, vehicle.doing(now_));
-    if (!alone && !all) continue;
+    if (!led || now_ - vehicle.commanded_at() >= kLeftAlone) checkers_.alone(index, now_, vehicle.doing(now_));
     tell(p, vehicle_state(index));
     if (processes_[p].carrier == twin_process.carrier) tell(twin(), vehicle_state(index));
   }

@@ -48,6 +48,12 @@ std::pair<JournalKind, Bytes> told(const protocol::PlanOffer& offer) {
 std::pair<JournalKind, Bytes> told(const protocol::CarrierState& state) {
   return {JournalKind::kCarrierState, dds::content_of(state)};
 }
+std::pair<JournalKind, Bytes> told(const Heard<protocol::Beacon>& beacon) {
+  return {JournalKind::kBeaconArrived, dds::content_of(beacon.arrived, beacon.message)};
+}
+std::pair<JournalKind, Bytes> told(const Heard<protocol::CarrierState>& state) {
+  return {JournalKind::kCarrierStateArrived, dds::content_of(state.arrived, state.message)};
+}
 std::pair<JournalKind, Bytes> told(const PlanVerdict& /*verdict*/) {
   return {JournalKind::kVerdict, {}};
 }
@@ -57,11 +63,6 @@ std::optional<Event> tick_of(const Bytes& bytes) {
   ByteReader reader(bytes);
   const Tick tick{reader.number<std::uint64_t>()};
   return reader.good() && reader.left() == 0 ? std::optional<Event>(tick) : std::nullopt;
-}
-
-std::optional<Event> time_reply_of(const Bytes& bytes) {
-  const auto reply = dds::arrival_of<protocol::TimeReply>(bytes);
-  return reply ? std::optional<Event>(TimeReplyArrived{reply->message, reply->at}) : std::nullopt;
 }
 
 }  // namespace
@@ -124,9 +125,13 @@ std::optional<Event> event_of(const protocol::JournalEntry& entry) {
     case JournalKind::kPlanOffer:
       return dds::heard<Event, protocol::PlanOffer>(entry.content);
     case JournalKind::kTimeReply:
-      return time_reply_of(entry.content);
+      return dds::heard_when<Event, protocol::TimeReply, TimeReplyArrived>(entry.content);
     case JournalKind::kCarrierState:
       return dds::heard<Event, protocol::CarrierState>(entry.content);
+    case JournalKind::kBeaconArrived:
+      return dds::heard_when<Event, protocol::Beacon, Heard<protocol::Beacon>>(entry.content);
+    case JournalKind::kCarrierStateArrived:
+      return dds::heard_when<Event, protocol::CarrierState, Heard<protocol::CarrierState>>(entry.content);
     default:
       return std::nullopt;
   }

@@ -1,11 +1,12 @@
 #pragma once
 // An agent's journal: between what its core is made of, told and says, and the entries of common/protocol/journal.hpp.
 //
-//   kBeginning     the agent's options as JSON, so that a person can read them, too
-//   kTick          how many samples could not be decoded (8), if any
-//   kTimeReply     when it arrived (8), and the reply
-//   kVerdict       nothing: it is what the core's last question leads to (judge() in plan_judge.hpp)
-//   the others     the message
+//   kBeginning                                         the agent's options as JSON, so that a person can read them, too
+//   kTick                                              how many samples could not be decoded (8), if any
+//   kTimeReply, kBeaconArrived, kCarrierStateArrived   when it arrived (8), and the message
+//   kVerdict                                           nothing: it is what the core's last question leads to (judge()
+//                                                      in plan_judge.hpp)
+//   the others                                         the message
 //
 // Messages are as they cross the wire, so exactly what a node decodes.
 
@@ -26,6 +27,8 @@ enum class JournalKind : std::uint8_t {
   kTimeReply = 4,
   kCarrierState = 5,
   kVerdict = 6,
+  kBeaconArrived = 7,
+  kCarrierStateArrived = 8,
 };
 
 /// Which outputs came of a step: JournalEntry::said.

@@ -50,12 +50,6 @@ Told told(const protocol::CarrierState& state) {
   return {JournalKind::kCarrierState, dds::content_of(state)};
 }
 
-template <class Message, class Arrived>
-std::optional<Event> arrived(const Bytes& content) {
-  auto message = dds::arrival_of<Message>(content);
-  return message ? std::optional<Event>(Arrived{std::move(message->message), message->at}) : std::nullopt;
-}
-
 std::optional<Event> retune_of(const Bytes& content) {
   ByteReader reader(content);
   const auto command = reader.number<std::uint64_t>();
@@ -118,11 +112,11 @@ std::optional<Event> event_of(const protocol::JournalEntry& entry) {
     case JournalKind::kTick:
       return Tick{};
     case JournalKind::kAgentStatus:
-      return arrived<protocol::AgentStatus, StatusArrived>(entry.content);
+      return dds::heard_when<Event, protocol::AgentStatus, StatusArrived>(entry.content);
     case JournalKind::kHeldPlans:
       return dds::heard<Event, protocol::HeldPlans>(entry.content);
     case JournalKind::kTimeRequest:
-      return arrived<protocol::TimeRequest, TimeRequestArrived>(entry.content);
+      return dds::heard_when<Event, protocol::TimeRequest, TimeRequestArrived>(entry.content);
     case JournalKind::kCommand:
       return dds::heard<Event, protocol::Command>(entry.content);
     case JournalKind::kRetune:

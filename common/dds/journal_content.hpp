@@ -16,13 +16,7 @@ template <class Message>
   return encode_payload(message).value_or(Bytes{});
 }
 
-/// A message whose core is told when it arrived.
-template <class Message>
-struct Arrival {
-  Message message;
-  LocalTime at{};
-};
-
+/// Of a message whose core is told when it arrived.
 template <class Message>
 [[nodiscard]] Bytes content_of(LocalTime arrived, const Message& message) {
   Bytes bytes;
@@ -32,21 +26,22 @@ template <class Message>
   return bytes;
 }
 
-template <class Message>
-[[nodiscard]] std::optional<Arrival<Message>> arrival_of(const Bytes& content) {
-  ByteReader reader(content);
-  const LocalTime arrived(Duration(static_cast<Duration::rep>(reader.number<std::uint64_t>())));
-  if (!reader.good() || !usable(arrived)) return std::nullopt;
-  auto message =
-      decode_payload<Message>(Bytes(content.begin() + static_cast<std::ptrdiff_t>(reader.at()), content.end()));
-  return message ? std::optional(Arrival<Message>{std::move(*message), arrived}) : std::nullopt;
-}
-
 /// As one of the events of a core.
 template <class Event, class Message>
 [[nodiscard]] std::optional<Event> heard(const Bytes& content) {
   auto message = decode_payload<Message>(content);
   return message ? std::optional<Event>(std::move(*message)) : std::nullopt;
+}
+
+/// The same of an event `Arrived{message, when}`.
+template <class Event, class Message, class Arrived>
+[[nodiscard]] std::optional<Event> heard_when(const Bytes& content) {
+  ByteReader reader(content);
+  const LocalTime arrived(Duration(static_cast<Duration::rep>(reader.number<std::uint64_t>())));
+  if (!reader.good() || !usable(arrived)) return std::nullopt;
+  auto message =
+      decode_payload<Message>(Bytes(content.begin() + static_cast<std::ptrdiff_t>(reader.at()), content.end()));
+  return message ? std::optional<Event>(Arrived{std::move(*message), arrived}) : std::nullopt;
 }
 
 }  // namespace gyre::dds

@@ -88,8 +88,15 @@ void said(Comparison& comparison, LocalTime at, const char* kind, const Message&
 /// The agent's core with what its process did beside it: a question is judged when the journal says so.
 class SteppedAgent {
  public:
-  static constexpr std::array kKinds{
-      "", "ticks", "beacons", "plan offers", "time replies", "states of its vehicle", "verdicts on plans"};
+  static constexpr std::array kKinds{"",
+                                     "ticks",
+                                     "beacons",
+                                     "plan offers",
+                                     "time replies",
+                                     "states of its vehicle",
+                                     "verdicts on plans",
+                                     "beacons",
+                                     "states of its vehicle"};
   static inline const std::vector<std::string> kOutputs{"a time request", "a setpoint", "a status", "held plans",
                                                         "a question about a plan"};
 

@@ -40,6 +40,22 @@ TEST(AgentJournal, ATimeReplyComesBackWithItsArrival) {
   }));
 }
 
+template <class Message>
+void expect_it_comes_back_with_its_arrival() {
+  EXPECT_TRUE(holds([] {
+    const Heard<Message> told{random_message<Message>(), LocalTime(Duration(*rc::gen::inRange(-99, 99)))};
+    const auto back = event_of(entry_of(kNow, told, {}));
+    RC_ASSERT(back && std::holds_alternative<Heard<Message>>(*back));
+    RC_ASSERT(bits_of(std::get<Heard<Message>>(*back).message) == bits_of(told.message));
+    RC_ASSERT(std::get<Heard<Message>>(*back).arrived == told.arrived);
+  }));
+}
+
+TEST(AgentJournal, WhatTheClockIsWatchedByComesBackWithItsArrival) {
+  expect_it_comes_back_with_its_arrival<protocol::Beacon>();
+  expect_it_comes_back_with_its_arrival<protocol::CarrierState>();
+}
+
 TEST(AgentJournal, ATickComesBackWithWhatCouldNotBeDecoded) {
   for (const std::uint64_t undecodable : {0UL, 1UL, 1UL << 40U}) {
     const auto back = event_of(entry_of(kNow, Tick{undecodable}, {}));

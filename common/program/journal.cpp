@@ -20,7 +20,9 @@ Journal::Journal(dds::Node& node, std::string process, const protocol::JournalEn
 }
 
 void Journal::send(LocalTime now) {
-  if (writer_.waiting() == 0 || pieces_.readers() == 0) return;
+  const int before = std::exchange(readers_, pieces_.readers());
+  if (readers_ > before) writer_.begin_again();
+  if (writer_.waiting() == 0 || readers_ == 0) return;
   const bool all = now < emptied_ || now - emptied_ >= kPeriod;  // a clock may be shifted back
   const std::size_t enough = writer_.waiting() - writer_.waiting() / kShare;
   do {

@@ -28,6 +28,7 @@ class Journal {
   std::uint64_t incarnation_;
   protocol::JournalWriter writer_;
   dds::Writer<protocol::JournalPiece> pieces_;
+  int readers_ = 0;
   LocalTime emptied_ = LocalTime::min();
 };
 

@@ -13,29 +13,38 @@ constexpr std::size_t kHead = 8 + 1 + 1;
 
 void JournalWriter::add(const JournalEntry& entry) {
   if (given_up_) return;
-  if (waiting_.size() + kLength + kHead + entry.content.size() > most_waiting_) {
+  const std::size_t more = kLength + kHead + entry.content.size();
+  if (kept_.size() + more > most_kept_) {
+    kept_.erase(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(said_));
+    offset_ += std::exchange(said_, 0);
+  }
+  if (kept_.size() + more > most_kept_) {
     given_up_ = true;
-    waiting_ = {};
+    kept_ = {};
     return;
   }
   Bytes bytes;
-  bytes.reserve(kLength + kHead + entry.content.size());
+  bytes.reserve(more);
   ByteWriter writer(bytes);
   writer.number(static_cast<std::uint32_t>(kHead + entry.content.size()));
   writer.number(static_cast<std::uint64_t>(entry.at.time_since_epoch().count()));
   writer.number(entry.kind);
   writer.number(entry.said);
   writer.raw(entry.content.data(), entry.content.size());
-  waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
+  kept_.insert(kept_.end(), bytes.begin(), bytes.end());
 }
 
 std::optional<JournalWriter::Piece> JournalWriter::next(bool all) {
-  if (waiting_.empty() || (!all && waiting_.size() < kMaxJournalBytes)) return std::nullopt;
-  const auto end = waiting_.begin() + static_cast<std::ptrdiff_t>(std::min(waiting_.size(), kMaxJournalBytes));
-  Piece piece{offset_, Bytes(waiting_.begin(), end)};
-  offset_ += piece.bytes.size();
-  waiting_.erase(waiting_.begin(), end);
+  if (waiting() == 0 || (!all && waiting() < kMaxJournalBytes)) return std::nullopt;
+  const auto begin = kept_.begin() + static_cast<std::ptrdiff_t>(said_);
+  const auto end = begin + static_cast<std::ptrdiff_t>(std::min(waiting(), kMaxJournalBytes));
+  Piece piece{offset_ + said_, Bytes(begin, end)};
+  said_ += piece.bytes.size();
   return piece;
+}
+
+void JournalWriter::begin_again() {
+  if (offset_ == 0) said_ = 0;
 }
 
 void JournalReader::take(std::uint64_t offset, const Bytes& bytes) {

@@ -9,8 +9,9 @@
 // `kind` and `content` are the process's own (agent/journal.hpp); `said` is which of its outputs came of the step, one
 // bit each. The bytes travel in pieces that each fit into a datagram.
 //
-// A journal is whole or it is none: it begins with its process. So what nobody takes is kept for a while, for a
-// recorder that is found a moment later, and then the journal is given up for good: a process does not grow.
+// A journal is whole or it is none: it begins with its process. So its beginning is kept for a while, for recorders
+// that are found later, and said again to each. Then what was said is forgotten; and where nobody was there until then,
+// the journal is given up for good: a process does not grow.
 
 #include <cstdint>
 #include <deque>
@@ -39,9 +40,9 @@ inline constexpr std::size_t kMaxJournalEntry = std::size_t{1} << 20;
 class JournalWriter {
  public:
   /// Half a minute of an agent's.
-  static constexpr std::size_t kMostWaiting = std::size_t{1} << 20;
+  static constexpr std::size_t kMostKept = std::size_t{1} << 20;
 
-  explicit JournalWriter(std::size_t most_waiting = kMostWaiting) : most_waiting_(most_waiting) {}
+  explicit JournalWriter(std::size_t most_kept = kMostKept) : most_kept_(most_kept) {}
 
   void add(const JournalEntry& entry);
   /// So many bytes that a piece is full, or with `all` what there is. Absent: nothing waits.
@@ -50,14 +51,17 @@ class JournalWriter {
     Bytes bytes;
   };
   [[nodiscard]] std::optional<Piece> next(bool all);
-  [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }
+  /// Somebody came who has heard nothing: from the beginning, if that is still kept.
+  void begin_again();
+  [[nodiscard]] std::size_t waiting() const { return kept_.size() - said_; }
   /// More waited than is kept.
   [[nodiscard]] bool given_up() const { return given_up_; }
 
  private:
-  std::size_t most_waiting_;
-  std::deque<std::uint8_t> waiting_;
-  std::uint64_t offset_ = 0;  ///< of the first that waits
+  std::size_t most_kept_;
+  std::deque<std::uint8_t> kept_;
+  std::size_t said_ = 0;      ///< of those
+  std::uint64_t offset_ = 0;  ///< of the first of those
   bool given_up_ = false;
 };
 

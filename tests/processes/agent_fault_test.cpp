@@ -149,6 +149,22 @@ TEST_F(AgentFaultTest, AnAgentIsStopped) {
                                  1e3 * moved_at_the_end_m())));
 }
 
+// What waited for the simulator is of an agent that is no more, and of a time that is over.
+TEST_F(AgentFaultTest, TheSimulatorHangsWhileAnAgentIsStartedAnew) {
+  ASSERT_NO_FATAL_FAILURE(fly(mission_at(1.0, kFlyOn)));
+  flight_->send("simulator", SIGSTOP);
+  flight_->kill(agent_name(3));
+  flight_->start_process(agent_name(3));
+  wait(1.2);
+  flight_->send("simulator", SIGCONT);
+  const auto back = FaultFlight::seconds_until(kRecovery_s, [&] { return flight_->all_flying(); });
+  ASSERT_TRUE(back) << flight_->said_by_all();
+  wait(4.0);
+  const Row& row = measure("simulator hung for 1.2 s at 1 rad/s, an agent started anew meanwhile",
+                           text("all fly %.1f s after it goes on", *back));
+  EXPECT_LT(row.load.displacement_max_m, 1e-3);
+}
+
 // ---------------------------------------------------------------------------------------------------------- its link
 
 TEST_F(AgentFaultTest, AnAgentsLinkIsCutAndAllStopTogether) {

@@ -133,6 +133,20 @@ TEST_F(LaboratoryTest, AnAgentsClockLeaps) {
   expect_continuous(row);
 }
 
+// By less than a beacon may be late, so that by beacons alone it is not seen.
+TEST_F(LaboratoryTest, AnAgentsClockLeapsALittle) {
+  ASSERT_NO_FATAL_FAILURE(fly_in_laboratory(mission()));
+  for (const int leap_ms : {5, 50, 300}) {
+    shift(agent_name(3), milliseconds(leap_ms));
+    wait(2.0);
+  }
+  EXPECT_TRUE(flight_->all_flying());
+  EXPECT_NE(flight_->said(agent_name(3)).find("this clock leapt by "), std::string::npos);
+  const Row& row = measure("laboratory: an agent's clock leaps by 5, 50 and 300 ms", "");
+  EXPECT_LT(row.load.displacement_max_m, 2e-3);
+  expect_continuous(row);
+}
+
 TEST_F(LaboratoryTest, AnAgentsClockStandsStill) {
   ASSERT_NO_FATAL_FAILURE(fly_in_laboratory(mission()));
   shift(agent_name(3), -seconds(2));

@@ -70,6 +70,40 @@ TEST(Journal, IsGivenUpWhenNobodyTakesIt) {
   EXPECT_FALSE(writer.next(true));
 }
 
+TEST(Journal, IsSaidAgainFromItsBeginningToWhoComesLater) {
+  JournalWriter writer;
+  JournalReader first;
+  JournalReader second;
+  std::vector<JournalEntry> in;
+  const auto say = [&](bool both) {
+    in.push_back(entry(static_cast<std::int64_t>(in.size()), 2, 1500));
+    writer.add(in.back());
+    while (const auto piece = writer.next(true)) {
+      first.take(piece->offset, piece->bytes);
+      if (both) second.take(piece->offset, piece->bytes);
+    }
+  };
+  for (int i = 0; i < 5; ++i) say(false);
+  writer.begin_again();
+  for (int i = 0; i < 5; ++i) say(true);
+  EXPECT_EQ(all_of(first), in);
+  EXPECT_EQ(all_of(second), in);
+}
+
+TEST(Journal, WhatWasSaidIsForgottenBeforeAnythingIsGivenUp) {
+  JournalWriter writer(4000);
+  JournalReader reader;
+  for (int i = 0; i < 20; ++i) {
+    writer.add(entry(i, 2, 900));
+    while (const auto piece = writer.next(true)) reader.take(piece->offset, piece->bytes);
+  }
+  EXPECT_EQ(all_of(reader).size(), 20U);
+  EXPECT_FALSE(writer.given_up());
+  writer.begin_again();
+  const auto piece = writer.next(true);
+  EXPECT_FALSE(piece) << "it has no beginning any more";
+}
+
 TEST(Journal, EndsAtAGap) {
   JournalWriter writer;
   for (int i = 0; i < 10; ++i) writer.add(entry(i, 2, 600));

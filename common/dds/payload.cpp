@@ -10,13 +10,16 @@
 
 namespace gyre::dds {
 
+// A type's support works out the largest message there is when it is made, which takes longer than to write one; so
+// each thread keeps its own.
+
 template <class Message>
 std::optional<Message> decode_payload(const std::vector<std::uint8_t>& payload) {
   if (payload.empty() || payload.size() > std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
   fast::rtps::SerializedPayload_t wire(static_cast<std::uint32_t>(payload.size()));
   wire.length = static_cast<std::uint32_t>(payload.size());
   std::copy(payload.begin(), payload.end(), wire.data);
-  StrictType<typename Wire<Message>::Support> type(std::make_shared<std::atomic<std::uint64_t>>(0));
+  thread_local StrictType<typename Wire<Message>::Support> type(std::make_shared<std::atomic<std::uint64_t>>(0));
   typename Wire<Message>::Type sample;
   if (!type.deserialize(fast::passed(wire), &sample)) return std::nullopt;
   return decode(sample);
@@ -26,7 +29,7 @@ template <class Message>
 std::optional<std::vector<std::uint8_t>> encode_payload(const Message& message) {
   auto sample = encode(message);
   if (!sample) return std::nullopt;
-  typename Wire<Message>::Support support;
+  thread_local typename Wire<Message>::Support support;
   fast::rtps::SerializedPayload_t wire(fast::wire_size(support, *sample));
   if (!fast::serialize(support, *sample, fast::passed(wire))) return std::nullopt;
   return std::vector<std::uint8_t>(wire.data, wire.data + wire.length);

@@ -6,7 +6,7 @@
 namespace gyre::program {
 namespace {
 
-/// What does not fill a piece waits no longer.
+/// What does not fill a piece waits no longer; and so often it is asked who listens, which costs more than to write.
 constexpr Duration kPeriod = std::chrono::milliseconds(100);
 /// Of what waits, so much goes at a beat: what has gathered until a recorder was found comes in some tenths of a
 /// second, and does not drown what flies.
@@ -20,17 +20,20 @@ Journal::Journal(dds::Node& node, std::string process, const protocol::JournalEn
 }
 
 void Journal::send(LocalTime now) {
-  const int before = std::exchange(readers_, pieces_.readers());
-  if (readers_ > before) writer_.begin_again();
-  if (writer_.waiting() == 0 || readers_ == 0) return;
-  const bool all = now < emptied_ || now - emptied_ >= kPeriod;  // a clock may be shifted back
+  const bool due = !looked_ || now < *looked_ || now - *looked_ >= kPeriod;  // a clock may be shifted back
+  if (writer_.given_up() || (!due && readers_ == 0)) return;
+  if (due) {
+    looked_ = now;
+    const int before = std::exchange(readers_, pieces_.readers());
+    if (readers_ > before) writer_.begin_again();
+    if (readers_ == 0) return;
+  }
   const std::size_t enough = writer_.waiting() - writer_.waiting() / kShare;
   do {
-    auto piece = writer_.next(all);
+    auto piece = writer_.next(due);
     if (!piece) return;
     pieces_.write({process_, incarnation_, piece->offset, std::move(piece->bytes)});
   } while (writer_.waiting() > enough);
-  if (writer_.waiting() == 0) emptied_ = now;
 }
 
 }  // namespace gyre::program

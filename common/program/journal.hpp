@@ -2,6 +2,7 @@
 // Keeps the journal of a process's core (common/protocol/journal.hpp), and sends it while somebody records.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "common/dds/node.hpp"
@@ -29,7 +30,7 @@ class Journal {
   protocol::JournalWriter writer_;
   dds::Writer<protocol::JournalPiece> pieces_;
   int readers_ = 0;
-  LocalTime emptied_ = LocalTime::min();
+  std::optional<LocalTime> looked_;  ///< for readers
 };
 
 }  // namespace gyre::program

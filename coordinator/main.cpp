@@ -39,7 +39,7 @@ class Wire {
        const protocol::JournalEntry& beginning, bool laboratory)
       : node_(std::move(opened)),
         health_(*node_, kName),
-        journal_(*node_, kName, beginning),
+        journal_(*node_, kName, beginning, kMostJournal),
         laboratory_(*node_, kName, laboratory) {
     gyre::dds::Node& node = *node_;
     beacon_ = node.writer<protocol::Beacon>();
@@ -109,6 +109,7 @@ class Wire {
 
  private:
   static constexpr const char* kName = "coordinator";
+  static constexpr std::size_t kMostJournal = std::size_t{16} << 20;  // it is told as much as all agents are
 
   gyre::dds::Inbox<Event> inbox_;  // outlives the node, whose handlers fill it
   std::unique_ptr<gyre::dds::Node> node_;

@@ -87,7 +87,7 @@ class Node {
 
   /// Every topic of the swarm, or with a carrier every topic of that one, as bytes: `handler` runs in a Fast DDS thread
   /// for each sample that arrives, whatever is in it. A node that records reads nothing of the same topics. Without
-  /// `journals` no process sends its own: they are half of what is recorded.
+  /// `journals` no process sends its own: they are nearly half of what is recorded.
   void record(const std::function<void(RecordedSample)>& handler, std::optional<CarrierId> carrier = std::nullopt,
               bool journals = true);
 

@@ -65,7 +65,7 @@ using EveryMessage =
 
 /// How many samples a writer keeps to send again.
 [[nodiscard]] constexpr int writer_depth(Delivery delivery) {
-  if (delivery == Delivery::kStream) return 256;  // five seconds of an agent's journal
+  if (delivery == Delivery::kStream) return 256;  // nine seconds of an agent's journal
   return delivery == Delivery::kEach ? 16 : 1;
 }
 

@@ -14,8 +14,11 @@ constexpr std::size_t kShare = 16;
 
 }  // namespace
 
-Journal::Journal(dds::Node& node, std::string process, const protocol::JournalEntry& beginning)
-    : process_(std::move(process)), incarnation_(node.incarnation()), pieces_(node.writer<protocol::JournalPiece>()) {
+Journal::Journal(dds::Node& node, std::string process, const protocol::JournalEntry& beginning, std::size_t most_kept)
+    : process_(std::move(process)),
+      incarnation_(node.incarnation()),
+      writer_(most_kept),
+      pieces_(node.writer<protocol::JournalPiece>()) {
   writer_.add(beginning);
 }
 

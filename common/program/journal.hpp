@@ -13,7 +13,8 @@ namespace gyre::program {
 class Journal {
  public:
   /// `process` is its name as people know it: "agent 3". `beginning`: with what its core was made. `node` outlives it.
-  Journal(dds::Node& node, std::string process, const protocol::JournalEntry& beginning);
+  Journal(dds::Node& node, std::string process, const protocol::JournalEntry& beginning,
+          std::size_t most_kept = protocol::JournalWriter::kMostKept);
 
   /// `entry()` makes it, if it is kept.
   template <class Entry>

@@ -129,7 +129,8 @@ program::Command record_command() {
            {"--mission", &options->mission,
             "the mission that will be flown: its carriers are heard from the first word on"},
            {"--without-journals", &options->without_journals,
-            "leave out what processes were told, half of all: for thin links; gyre replay cannot step them then"},
+            "leave out what processes were told, nearly half of all: for thin links; gyre replay cannot step them "
+            "then"},
            {"--force", &options->force, "replace a file of this name"}},
           options->common),
       [options] { return record(*options); }};

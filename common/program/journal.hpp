@@ -31,6 +31,8 @@ class Journal {
   protocol::JournalWriter writer_;
   dds::Writer<protocol::JournalPiece> pieces_;
   int readers_ = 0;
+  std::optional<LocalTime> came_;    ///< the last of them
+  int begun_ = 0;                    ///< for him
   std::optional<LocalTime> looked_;  ///< for readers
 };
 

@@ -1,6 +1,7 @@
 #include "common/protocol/journal.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace gyre::protocol {
@@ -48,11 +49,9 @@ void JournalWriter::begin_again() {
 }
 
 void JournalReader::take(std::uint64_t offset, const Bytes& bytes) {
-  if (gap_ || broken_ || offset + bytes.size() <= end_) return;
-  if (offset > end_) {
-    gap_ = true;
-    return;
-  }
+  if (broken_ || offset > std::numeric_limits<std::uint64_t>::max() - bytes.size()) return;
+  furthest_ = std::max(furthest_, offset + bytes.size());
+  if (offset > end_ || offset + bytes.size() <= end_) return;
   unread_.erase(unread_.begin(), unread_.begin() + static_cast<std::ptrdiff_t>(std::exchange(read_, 0)));
   unread_.insert(unread_.end(), bytes.begin() + static_cast<std::ptrdiff_t>(end_ - offset), bytes.end());
   end_ = offset + bytes.size();

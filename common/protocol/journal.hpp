@@ -67,20 +67,20 @@ class JournalWriter {
 
 class JournalReader {
  public:
-  /// Pieces in their order; one that was there before is passed over. Behind a gap nothing is read any more.
+  /// Of a piece what was not there before; what lies behind a gap is passed over, and may be said again.
   void take(std::uint64_t offset, const Bytes& bytes);
   /// Absent: none is whole yet, or broken().
   [[nodiscard]] std::optional<JournalEntry> next();
 
-  [[nodiscard]] std::uint64_t bytes() const { return end_; }  ///< that came without a gap
-  [[nodiscard]] bool gap() const { return gap_; }             ///< a piece is missing
-  [[nodiscard]] bool broken() const { return broken_; }       ///< what came is no journal
+  [[nodiscard]] std::uint64_t bytes() const { return end_; }   ///< that came without a gap
+  [[nodiscard]] bool gap() const { return furthest_ > end_; }  ///< a piece is missing
+  [[nodiscard]] bool broken() const { return broken_; }        ///< what came is no journal
 
  private:
   Bytes unread_;
   std::size_t read_ = 0;  ///< of those
   std::uint64_t end_ = 0;
-  bool gap_ = false;
+  std::uint64_t furthest_ = 0;  ///< that anything came of
   bool broken_ = false;
 };
 

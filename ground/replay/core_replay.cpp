@@ -35,6 +35,7 @@ struct Found {
   std::map<std::uint64_t, Life> lives;
   std::shared_ptr<RecordedWords> words = std::make_shared<RecordedWords>();
   std::set<std::string> others;  ///< that have a journal, too
+  bool whole = true;             ///< the file has its end
 };
 
 /// What an agent says names its carrier; what the coordinator says to one is not the agent's.
@@ -74,6 +75,7 @@ Result<Found> find(const McapSource& source, const std::string& process, std::op
         },
         item->message);
   }
+  found.whole = stream.file().whole();
   return found;
 }
 
@@ -158,18 +160,18 @@ class SteppedCoordinator {
   coordinator::Coordinator coordinator_;
 };
 
-std::string cut_of(const Life& life) {
+std::string cut_of(const Life& life, bool whole) {
   if (life.reader.gap()) return "a piece of it was not recorded";
   if (life.reader.broken()) return "what follows is no journal";
-  return {};
+  return whole ? "" : "the recording was cut off";
 }
 
 template <class Stepped, class Beginning>
-Result<Replayed> replay_life(const Life& life, const std::shared_ptr<const RecordedWords>& words,
-                             const std::string& process, Result<Beginning> (*beginning_of)(const JournalEntry&)) {
+Result<Replayed> replay_life(const Life& life, const Found& found, const std::string& process,
+                             Result<Beginning> (*beginning_of)(const JournalEntry&)) {
   const auto beginning = beginning_of(life.entries.front());
   if (!beginning) return beginning.error();
-  Replayed out{process, beginning.value().version, {}, Comparison(words), cut_of(life)};
+  Replayed out{process, beginning.value().version, {}, Comparison(found.words), cut_of(life, found.whole)};
   Stepped core(beginning.value());
   for (auto entry = life.entries.begin() + 1; entry != life.entries.end(); ++entry) {
     if (!core.step(*entry, out.comparison)) {
@@ -206,9 +208,8 @@ Result<std::vector<Replayed>> replay_core(const McapSource& source, std::optiona
   for (const std::uint64_t incarnation : found.value().order) {
     const Life& life = found.value().lives.at(incarnation);
     if (life.entries.empty()) continue;
-    auto replayed =
-        carrier ? replay_life<SteppedAgent>(life, found.value().words, process, &agent::beginning_of)
-                : replay_life<SteppedCoordinator>(life, found.value().words, process, &coordinator::beginning_of);
+    auto replayed = carrier ? replay_life<SteppedAgent>(life, found.value(), process, &agent::beginning_of)
+                            : replay_life<SteppedCoordinator>(life, found.value(), process, &coordinator::beginning_of);
     if (!replayed) return replayed.error();
     out.push_back(std::move(replayed).value());
   }

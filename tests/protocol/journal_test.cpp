@@ -118,6 +118,21 @@ TEST(Journal, EndsAtAGap) {
   EXPECT_FALSE(reader.broken());
 }
 
+TEST(Journal, AGapIsFilledByWhatIsSaidAgain) {
+  JournalWriter writer;
+  JournalReader reader;
+  for (int i = 0; i < 10; ++i) writer.add(entry(i, 2, 600));
+  for (int i = 0; const auto piece = writer.next(true); ++i) {
+    if (i > 2) reader.take(piece->offset, piece->bytes);
+  }
+  EXPECT_TRUE(reader.gap());
+  EXPECT_FALSE(reader.next());
+  writer.begin_again();
+  while (const auto piece = writer.next(true)) reader.take(piece->offset, piece->bytes);
+  EXPECT_FALSE(reader.gap());
+  EXPECT_EQ(all_of(reader).size(), 10U);
+}
+
 TEST(Journal, NoneFromItsMiddle) {
   JournalReader reader;
   reader.take(5000, Bytes(100, 1));

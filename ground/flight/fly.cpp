@@ -172,9 +172,8 @@ std::optional<std::string> objection_to(const FlyOptions& options) {
     return *options.record + " is there already: record into another file, or move it away";
   }
   if (!options.page && options.page_options.any()) {
-    return "--address, --port, --token and --host are the page's: give --page, too, or leave them out (also GYRE_PORT, "
-           ".. "
-           "in the environment)";
+    return "--address, --port, --token and --host are the page's: give --page, too, or leave them out (and "
+           "GYRE_PORT and the like in the environment)";
   }
   return objection(options.page_options);
 }

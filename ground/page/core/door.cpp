@@ -93,9 +93,8 @@ std::string refusal_words(int status, std::string_view path, std::size_t request
   const std::string shown = utf8(path.substr(0, kShownOfPath)) + (path.size() > kShownOfPath ? ".." : "");
   switch (status) {
     case 400:
-      return "this is no HTTP request that the server can read: a method, an address and HTTP/1.1 in the first line, "
-             "then "
-             "headers, each in a line of its own";
+      return "this is no HTTP request that the server can read: a method, an address and HTTP/1.1 in the first "
+             "line, then headers, each in a line of its own";
     case 404:
       return "there is nothing at " + shown + ": the page is at /, what it asks for at " + listed(kShown) + " and " +
              listed(kAsked);

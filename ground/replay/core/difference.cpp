@@ -103,7 +103,6 @@ std::string told(const std::vector<Difference>& differences) {
 template std::vector<Difference> differences(const protocol::TimeRequest&, const protocol::TimeRequest&);
 template std::vector<Difference> differences(const protocol::Setpoint&, const protocol::Setpoint&);
 template std::vector<Difference> differences(const protocol::AgentStatus&, const protocol::AgentStatus&);
-template std::vector<Difference> differences(const protocol::HeldPlans&, const protocol::HeldPlans&);
 template std::vector<Difference> differences(const protocol::TimeReply&, const protocol::TimeReply&);
 template std::vector<Difference> differences(const protocol::PlanOffer&, const protocol::PlanOffer&);
 template std::vector<Difference> differences(const protocol::Beacon&, const protocol::Beacon&);

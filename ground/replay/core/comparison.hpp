@@ -1,7 +1,7 @@
 #pragma once
 // What a core says when it is stepped through its journal again, against what its process said then: which outputs came
-// of each step, as the journal tells, and their content, as far as it was recorded. Of held plans only whether they were
-// told: nothing in them says which of several a recorded one was.
+// of each step, as the journal tells, and their content, as far as it was recorded. Of held plans only whether they
+// were told: nothing in them says which of several a recorded one was.
 
 #include <array>
 #include <cstdint>

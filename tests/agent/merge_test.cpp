@@ -100,6 +100,23 @@ RC_GTEST_PROP(Merge, LandsExactlyAndLeavesHalfOfTheVehicleToThePlan, ()) {
   RC_ASSERT((before.position_w_m.value - reference.position_w_m.value).norm() < 1e-9);
 }
 
+// Half of the acceleration is the plan's, and gap and rate share the rest. A short way takes as long as its share asks.
+TEST(Merge, AShortWayFromRestTakesItsShareOfTheAccelerationAndNoLess) {
+  for (const double acceleration_m_s2 : {0.1, 0.5}) {
+    const MergeLimits limits{5.0, acceleration_m_s2, 5.0};
+    Merge merge(limits);
+    Command flown, reference;
+    flown.position_w_m.value = {1.0, 0.0, 0.0};
+    merge.begin(kNow, flown, held(reference));
+    double largest_m_s2 = 0.0;
+    for (SwarmTime t = kNow; merge.under_way(t); t += std::chrono::milliseconds(10)) {
+      largest_m_s2 = std::max(largest_m_s2, merge.apply(t, held(reference)).position_w_m.second.norm());
+    }
+    EXPECT_LE(largest_m_s2, 0.25 * acceleration_m_s2 * 1.001);
+    EXPECT_GE(largest_m_s2, 0.25 * acceleration_m_s2 * 0.99);
+  }
+}
+
 TEST(Merge, OfAGapThatGrowsTakesHalfOfTheAccelerationAndNoMore) {
   // Both fade in ten seconds, and ask for most at nearly the same moment.
   Command flown;

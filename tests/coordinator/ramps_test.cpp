@@ -72,13 +72,29 @@ TEST(Ramps, KeepWhatAWinchCanDo) {
   EXPECT_EQ(narrow.value(), carriers.value()) << "as a carrier of the same speed and acceleration";
   EXPECT_NE(winch.broken_by(rest.with_ramp(SwarmTime{}, milliseconds(500), 1.0).ramps.back())->find("winch"),
             std::string::npos);
-  // A ramp that overtakes another runs ahead of full pace, where a winch that is just fast enough is not.
-  winch.winch = {0.0, 2.0, std::nullopt};
+}
+
+// Which overtakes another, and runs ahead of full pace meanwhile.
+TEST(Ramps, ThatHurryKeepTheSpeedsAndRatesThatAreAllowed) {
   const protocol::Ramp hurries{SwarmTime{}, seconds(5), {PlanTime{}, 1.0, 0.5, 0.0}, 1.0};
-  ASSERT_GT(protocol::peaks(hurries, 0.0, 0.0).pace, 1.01);
-  EXPECT_TRUE(winch.broken_by(hurries));
-  winch.winch.rate_max_m_s = 4.0;
-  EXPECT_FALSE(winch.broken_by(hurries));
+  const double peak = protocol::peaks(hurries, 0.0, 0.0).pace;
+  ASSERT_GT(peak, 1.01);
+  RampLimits carrier = limits(100.0);
+  carrier.figures.front().winch_rate_m_s = {-1.2, 0.5};
+  carrier.figures.front().paid_out_rate_m_s = {-0.5, 1.4};
+  EXPECT_FALSE(carrier.broken_by(hurries));
+  const auto broken_by = [&](double speed_m_s, double winch_rate_m_s, double paid_out_m_s) {
+    RampLimits limited = carrier;
+    limited.limits.speed_max_m_s = speed_m_s;
+    limited.limits.winch_rate_max_m_s = winch_rate_m_s;
+    limited.winch.rate_max_m_s = paid_out_m_s;
+    return limited.broken_by(hurries).has_value();
+  };
+  const double speed = 2.0 * peak, rate = 1.2 * peak, paid_out = 1.4 * peak;
+  EXPECT_FALSE(broken_by(1.001 * speed, 1.001 * rate, 1.001 * paid_out));
+  EXPECT_TRUE(broken_by(0.999 * speed, 1.001 * rate, 1.001 * paid_out));
+  EXPECT_TRUE(broken_by(1.001 * speed, 0.999 * rate, 1.001 * paid_out));
+  EXPECT_TRUE(broken_by(1.001 * speed, 1.001 * rate, 0.999 * paid_out));
 }
 
 TEST(Ramps, AreJudgedByThoseWhoAskForMost) {

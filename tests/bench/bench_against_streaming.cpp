@@ -31,6 +31,7 @@
 #include "common/protocol/pace.hpp"
 #include "coordinator/core/coordinator.hpp"
 #include "simulator/core/simulator.hpp"
+#include "tests/places.hpp"
 
 namespace {
 
@@ -328,7 +329,7 @@ void row(const char* what, const Felt& felt, const Felt& gyre) {
 }  // namespace
 
 int main() {
-  const std::string source = GYRE_SOURCE_DIR;
+  const std::string source = gyre::test::source_directory();
   std::printf("30 %% of the packets lost, and all of them for 2 s (aim: at least 100 times less):\n\n");
   std::printf("    %-26s %10s %10s %12s   %8s %8s\n", "", "rms, N", "max, N", "moved, mm", "x force", "x moved");
   for (const char* name : {"/deploy/missions/paper.textproto", "/deploy/missions/paper-headings.textproto",

@@ -17,6 +17,7 @@
 #include "common/dds/node.hpp"
 #include "ground/flight/child_process.hpp"
 #include "ground/flight/flight_directory.hpp"
+#include "tests/places.hpp"
 
 namespace {
 
@@ -117,8 +118,8 @@ int main() {
   const auto made = gyre::ground::FlightDirectory::make(std::nullopt);
   if (!made) return fail(made.error().text, "");
   const std::string home = made.value().path();
-  const std::string bin = GYRE_BIN_DIR;
-  const std::string mission = std::string(GYRE_SOURCE_DIR) + "/deploy/missions/paper.textproto";
+  const std::string bin = gyre::test::program_directory();
+  const std::string mission = gyre::test::source_directory() + "/deploy/missions/paper.textproto";
   const std::string floor_domain = std::to_string(free_domain());
   const std::string seconds = std::to_string(kSettle_s + kMeasure_s + 60);
 

@@ -24,6 +24,7 @@
 #include "ground/swarm/listening.hpp"
 #include "tests/bench/spoken_swarm.hpp"
 #include "tests/page/connection.hpp"
+#include "tests/places.hpp"
 
 namespace {
 
@@ -95,8 +96,8 @@ int measure() {
   auto floor = std::move(ChildProcess::start({bench::own_program(), "listen", std::to_string(domain)},
                                              folder.path() + "/floor.txt"))
                    .value();
-  auto server = std::move(ChildProcess::start({std::string(GYRE_BIN_DIR) + "/gyre", "serve", "--port", "0", "--domain",
-                                               std::to_string(domain)},
+  auto server = std::move(ChildProcess::start({gyre::test::program_directory() + "/gyre", "serve", "--port", "0",
+                                               "--domain", std::to_string(domain)},
                                               log))
                     .value();
   swarm.say(kSettle_s);

@@ -28,6 +28,7 @@
 #include "ground/recording/core/mcap_records.hpp"
 #include "ground/recording/recording_file.hpp"
 #include "tests/bench/spoken_swarm.hpp"
+#include "tests/places.hpp"
 
 namespace {
 
@@ -74,8 +75,8 @@ int measure() {
   auto floor = std::move(ChildProcess::start({bench::own_program(), "listen", std::to_string(domain)},
                                              folder.path() + "/floor.txt"))
                    .value();
-  auto recorder = std::move(ChildProcess::start({std::string(GYRE_BIN_DIR) + "/gyre", "record", "-o", path, "--domain",
-                                                 std::to_string(domain)},
+  auto recorder = std::move(ChildProcess::start({gyre::test::program_directory() + "/gyre", "record", "-o", path,
+                                                 "--domain", std::to_string(domain)},
                                                 folder.path() + "/recorder.txt"))
                       .value();
   swarm.say(kSettle_s);

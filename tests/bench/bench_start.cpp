@@ -24,6 +24,7 @@
 #include "common/mission/mission.hpp"
 #include "ground/flight/child_process.hpp"
 #include "ground/flight/flight_directory.hpp"
+#include "tests/places.hpp"
 #include "tests/processes/fault_flight.hpp"
 #include "tests/processes/private_network.hpp"
 
@@ -81,7 +82,7 @@ std::optional<double> swarm_start_s(const FaultFlight::Options& options) {
 }
 
 std::optional<double> bare_start_s(int n, const std::string& home) {
-  const std::string program = std::string(GYRE_BIN_DIR) + "/bench_idle_star";
+  const std::string program = gyre::test::program_directory() + "/bench_idle_star";
   std::vector<ChildProcess> processes;
   const gyre::LocalTime begin = gyre::dds::now();
   std::vector<std::string> unmatched;
@@ -186,7 +187,8 @@ int main() {
   const auto options = [&](int n, bool engage) {
     const std::string mission = home + "/ring.textproto";
     std::ofstream(mission) << gyre::mission::to_text(ring(n));
-    return FaultFlight::Options{mission, home, GYRE_BIN_DIR, {}, engage, false, gyre::test::Watch::kStatuses};
+    return FaultFlight::Options{mission, home,  gyre::test::program_directory(), {},
+                                engage,  false, gyre::test::Watch::kStatuses};
   };
 
   std::printf("From the first process to READY, median of %d (aim: within 1.5 times the floor):\n\n", kRounds);

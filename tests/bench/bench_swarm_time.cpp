@@ -22,6 +22,7 @@
 #include "common/base/text.hpp"
 #include "common/dds/clock.hpp"
 #include "ground/flight/flight_directory.hpp"
+#include "tests/places.hpp"
 #include "tests/processes/fault_flight.hpp"
 #include "tests/processes/private_network.hpp"
 
@@ -149,7 +150,7 @@ int main() {
   if (!network) return fail("SKIPPED: " + network.error().text);
   const auto directory = gyre::ground::FlightDirectory::make(std::nullopt);
   if (!directory) return fail(directory.error().text);
-  const std::string mission = std::string(GYRE_SOURCE_DIR) + "/tests/processes/missions/faults.textproto";
+  const std::string mission = gyre::test::source_directory() + "/tests/processes/missions/faults.textproto";
 
   std::printf(
       "Swarm times of 4 agents, pairwise, clocks +-0.5 s and +-100 ppm, over %d s each (aim: p99 below 50 us):\n\n",
@@ -158,7 +159,8 @@ int main() {
   for (const int lost_percent : {0, 30, 60}) {
     PrivateNetwork lossy = network.value();
     lossy.heal();
-    auto flight = FaultFlight::start({mission, directory.value().path(), GYRE_BIN_DIR, kClocks, false, false});
+    auto flight =
+        FaultFlight::start({mission, directory.value().path(), gyre::test::program_directory(), kClocks, false, false});
     if (!flight) return fail(flight.error().text);
     const auto ready = [&] { return flight.value()->all_ready(); };
     if (!FaultFlight::seconds_until(60.0, ready)) return fail(flight.value()->said_by_all());

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tests/ground/gyre_command.hpp"
+#include "tests/places.hpp"
 
 namespace gyre::test {
 namespace {
@@ -29,8 +30,7 @@ TEST(Check, RefusedIsOneAndSaysWhyAndWhatCures) {
 }
 
 TEST(Check, CablesThatBraidAreRefusedInWords) {
-  const Answer answer =
-      gyre("check " + std::string(GYRE_SOURCE_DIR) + "/tests/data/missions/fixed-wing-braid.textproto");
+  const Answer answer = gyre("check " + source_directory() + "/tests/data/missions/fixed-wing-braid.textproto");
   EXPECT_EQ(answer.exit_code, 1);
   EXPECT_NE(answer.output.find("braid: carriers 1 and 2 wind around each other once per period"), std::string::npos)
       << answer.output;
@@ -102,7 +102,7 @@ TEST(BadUsage, IsTwoWithAMessageAndNoOutput) {
       {"check", "MISSION is required"},
       {"check --jsno " + shipped("paper"), "--jsno"},
       {"check no-such-file", "no-such-file: no such file"},
-      {"check '" + std::string(GYRE_SOURCE_DIR) + "'", "is a directory"},
+      {"check '" + source_directory() + "'", "is a directory"},
       {"check '" + broken_file + "'", broken_file + ":1:8: load.mass_kg: is -1"},
       {"sample '" + broken_file + "'", broken_file + ":1:8: load.mass_kg: is -1"},
       {"sample --count 1 " + shipped("paper"), "--count"},
@@ -138,7 +138,7 @@ TEST(Help, IsThereForEveryCommandThatAPageNames) {
   std::set<std::string> commands{""};
   for (const char* page : {"README.md", "ground/README.md", "deploy/README.md"}) {
     std::ostringstream read;
-    read << std::ifstream(std::string(GYRE_SOURCE_DIR) + "/" + page).rdbuf();
+    read << std::ifstream(source_directory() + "/" + page).rdbuf();
     const std::string text = read.str();
     // `gyre check ...`, build/bin/gyre status | engage; not the image of `docker run gyre gyre-agent`
     const std::regex named("[ `/]gyre [a-z]+(?![\\w-])( \\| [a-z]+(?![\\w-]))*");

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "tests/ground/gyre_command.hpp"
+#include "tests/places.hpp"
 
 namespace gyre::test {
 namespace {
@@ -48,7 +49,7 @@ TEST_F(DesignCommand, WithoutAFileTheMissionGoesToStandardOutputAndTheReportBesi
 
 TEST_F(DesignCommand, TheImpossibleIsNamedAndIsOne) {
   std::ostringstream text;
-  text << std::ifstream(std::string(GYRE_SOURCE_DIR) + "/deploy/missions/wing-trio.requirements.textproto").rdbuf();
+  text << std::ifstream(source_directory() + "/deploy/missions/wing-trio.requirements.textproto").rdbuf();
   std::string wings = text.str();
   const std::string limit = "length_max_m: 80";
   ASSERT_NE(wings.find(limit), std::string::npos);

@@ -14,6 +14,7 @@
 #include "ground/flight/core/flight_record.hpp"
 #include "ground/flight/core/flight_report.hpp"
 #include "ground/flight/core/flight_table.hpp"
+#include "tests/places.hpp"
 
 namespace gyre::ground {
 namespace {
@@ -22,7 +23,7 @@ constexpr double kRamp_s = 10.0;
 constexpr protocol::PlanNumber kMotion{5, 2};  // whatever it is called
 
 mission::Mission paper() {
-  const auto mission = mission::read_mission_file(std::string(GYRE_SOURCE_DIR) + "/deploy/missions/paper.textproto");
+  const auto mission = mission::read_mission_file(test::source_directory() + "/deploy/missions/paper.textproto");
   EXPECT_TRUE(mission) << mission.error().text;
   return mission.value();
 }

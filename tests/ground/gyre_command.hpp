@@ -11,6 +11,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/places.hpp"
+
 namespace gyre::test {
 
 struct Answer {
@@ -23,7 +25,7 @@ struct Answer {
 inline Answer gyre(const std::string& arguments) {
   const std::string complaint_file = ::testing::TempDir() + "gyre-complaint-" + std::to_string(::getpid());
   const std::string command =
-      "timeout 60 '" + std::string(GYRE_BIN_DIR) + "/gyre' " + arguments + " 2>'" + complaint_file + "'";
+      "timeout 60 '" + program_directory() + "/gyre' " + arguments + " 2>'" + complaint_file + "'";
   Answer answer;
   std::FILE* pipe = ::popen(command.c_str(), "r");
   if (pipe == nullptr) return answer;
@@ -41,7 +43,7 @@ inline Answer gyre(const std::string& arguments) {
 }
 
 inline std::string shipped(const std::string& mission) {
-  return "'" + std::string(GYRE_SOURCE_DIR) + "/deploy/missions/" + mission + ".textproto'";
+  return "'" + source_directory() + "/deploy/missions/" + mission + ".textproto'";
 }
 
 }  // namespace gyre::test

@@ -6,6 +6,7 @@
 
 #include "tests/ground/gyre_command.hpp"
 #include "tests/ground/svg_reader.hpp"
+#include "tests/places.hpp"
 
 namespace gyre::test {
 namespace {
@@ -56,7 +57,7 @@ TEST_F(PlotCommand, DrawsARefusedMission) {
 
 TEST_F(PlotCommand, AMotionWithoutBoundsIsOneAndNoFile) {
   const std::string mission = in_folder("unbounded.textproto");
-  std::string text = content(std::string(GYRE_SOURCE_DIR) + "/deploy/missions/single.textproto");
+  std::string text = content(source_directory() + "/deploy/missions/single.textproto");
   const std::size_t law = text.find("sine {");
   text.replace(law, text.find('}', law) + 1 - law, "directional { direction { x: 1 } mean_m: 1 }");
   std::ofstream(mission) << text;
@@ -91,7 +92,7 @@ TEST_F(PlotCommand, GoesWhereALinkLeadsAndToAPipe) {
 
 TEST_F(PlotCommand, NeverWritesOverTheMission) {
   const std::string mission = in_folder("mine.textproto");
-  fs::copy_file(std::string(GYRE_SOURCE_DIR) + "/deploy/missions/pair.textproto", mission);
+  fs::copy_file(source_directory() + "/deploy/missions/pair.textproto", mission);
   const std::string before = content(mission);
   const Answer answer = plot("'" + mission + "'", mission);
   EXPECT_EQ(answer.exit_code, 2);

@@ -16,6 +16,7 @@
 #include "ground/plot/core/view.hpp"
 #include "tests/ground/svg_reader.hpp"
 #include "tests/mechanics/plans.hpp"
+#include "tests/places.hpp"
 
 namespace gyre::test {
 namespace {
@@ -25,7 +26,7 @@ using ground::Point;
 using mechanics::Plan;
 
 mission::Mission shipped(const std::string& name) {
-  return mission::read_mission_file(std::string(GYRE_SOURCE_DIR) + "/deploy/missions/" + name + ".textproto").value();
+  return mission::read_mission_file(source_directory() + "/deploy/missions/" + name + ".textproto").value();
 }
 
 std::string picture(const std::string& name, const Plan& plan) {
@@ -323,7 +324,7 @@ Written written(const std::string& text) {
 /// What the README shows is what the command draws today; but for the last digit, which compilers round as they like.
 TEST(Plot, TheCommittedPicturesAreTodays) {
   for (const std::string name : {"fixed-wing-trio", "hex-multirotor"}) {
-    const std::string file = std::string(GYRE_SOURCE_DIR) + "/docs/pictures/" + name + ".svg";
+    const std::string file = source_directory() + "/docs/pictures/" + name + ".svg";
     std::ostringstream text;
     text << std::ifstream(file).rdbuf();
     const Written committed = written(text.str());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/ground/gyre_command.hpp"
+#include "tests/places.hpp"
 
 namespace gyre::test {
 namespace {
@@ -33,7 +34,7 @@ const ReferenceCase kCases[] = {{"paper", "paper-level"},
 class Reference : public ::testing::TestWithParam<ReferenceCase> {};
 
 std::string reference_path(const std::string& file) {
-  return std::string(GYRE_SOURCE_DIR) + "/tests/data/reference/" + file;
+  return source_directory() + "/tests/data/reference/" + file;
 }
 
 struct Table {

@@ -11,6 +11,7 @@
 #include "ground/check/certificate_json.hpp"
 #include "ground/check/certificate_table.hpp"
 #include "ground/check/motion_csv.hpp"
+#include "tests/places.hpp"
 
 namespace gyre::test {
 namespace {
@@ -200,8 +201,7 @@ TEST(Json, HasTheGrowthAtEveryPaceThatWasLookedAt) {
 }
 
 TEST(Csv, NumbersReadBackToTheSameBits) {
-  const auto mission =
-      mission::read_mission_file(std::string(GYRE_SOURCE_DIR) + "/deploy/missions/tri-mixed.textproto");
+  const auto mission = mission::read_mission_file(source_directory() + "/deploy/missions/tri-mixed.textproto");
   ASSERT_TRUE(mission.ok());
   const mechanics::Plan& plan = mission.value().plan;
   std::istringstream lines(motion_csv(plan, 3));

@@ -9,6 +9,7 @@
 
 #include "common/mechanics/grasp.hpp"
 #include "common/mechanics/orbit_figures.hpp"
+#include "tests/places.hpp"
 
 namespace gyre::mechanics::test {
 namespace {
@@ -82,7 +83,7 @@ std::size_t whole(std::size_t low, std::size_t high) {
 }
 
 Plan reference_plan(const std::string& name) {
-  std::ifstream file(std::string(GYRE_SOURCE_DIR) + "/tests/data/reference/cases/" + name + ".json");
+  std::ifstream file(gyre::test::source_directory() + "/tests/data/reference/cases/" + name + ".json");
   const Json j = Json::parse(file);
   Plan plan;
   plan.load.mass_kg = j.at("mass").get<double>();

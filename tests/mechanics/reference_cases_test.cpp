@@ -12,6 +12,7 @@
 #include "common/mechanics/certificate.hpp"
 #include "common/mechanics/grasp.hpp"
 #include "tests/mechanics/plans.hpp"
+#include "tests/places.hpp"
 
 namespace gyre::mechanics::test {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 using Json = nlohmann::json;
 
 std::ifstream open(const std::string& file) {
-  return std::ifstream(std::string(GYRE_SOURCE_DIR) + "/tests/data/reference/" + file);
+  return std::ifstream(gyre::test::source_directory() + "/tests/data/reference/" + file);
 }
 
 class ReferenceCase : public ::testing::TestWithParam<const char*> {

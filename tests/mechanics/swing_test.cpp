@@ -15,12 +15,13 @@
 #include "common/mechanics/grasp.hpp"
 #include "common/mission/mission.hpp"
 #include "tests/mechanics/plans.hpp"
+#include "tests/places.hpp"
 
 namespace gyre::mechanics::test {
 namespace {
 
 Plan mission(const std::string& path) {
-  const auto read = mission::read_mission_file(std::string(GYRE_SOURCE_DIR) + "/" + path + ".textproto");
+  const auto read = mission::read_mission_file(gyre::test::source_directory() + "/" + path + ".textproto");
   if (!read) ADD_FAILURE() << read.error().text;
   return read.value().plan;
 }

@@ -7,6 +7,7 @@
 
 #include "common/mission/mission.hpp"
 #include "tests/mission/sample_missions.hpp"
+#include "tests/places.hpp"
 
 namespace gyre::test {
 namespace {
@@ -241,7 +242,7 @@ TEST(BadInput, BracesInCommentsAndNamesAreNotNesting) {
 TEST(BadInput, FilesThatAreNone) {
   const auto complaint = [](const std::string& path) { return mission::read_mission_file(path).error().text; };
   EXPECT_NE(complaint("no/such/file").find("no/such/file: no such file"), std::string::npos);
-  EXPECT_NE(complaint(GYRE_SOURCE_DIR).find("is a directory"), std::string::npos);
+  EXPECT_NE(complaint(source_directory()).find("is a directory"), std::string::npos);
   EXPECT_NE(complaint("/dev/zero").find("larger than 1 MiB"), std::string::npos);
 }
 

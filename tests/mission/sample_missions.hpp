@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/places.hpp"
+
 namespace gyre::test {
 
 /// Well formed, one field per line where a test wants to name the line; every kind of length law is in it.
@@ -59,7 +61,7 @@ inline const std::vector<std::string> kShippedMissions = [] {
 }();
 
 inline std::string shipped_path(const std::string& name) {
-  return std::string(GYRE_SOURCE_DIR) + "/deploy/missions/" + name + ".textproto";
+  return source_directory() + "/deploy/missions/" + name + ".textproto";
 }
 
 inline std::string file_text(const std::string& path) {

@@ -8,6 +8,7 @@
 #include "common/mechanics/certificate.hpp"
 #include "common/mission/requirements.hpp"
 #include "tests/mission/sample_missions.hpp"
+#include "tests/places.hpp"
 
 namespace gyre::test {
 namespace {
@@ -29,7 +30,7 @@ bool broken(const mechanics::Certificate& certificate, mechanics::Rule rule) {
 
 TEST(Shipped, EveryFileIsInTheList) {
   std::size_t files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(GYRE_SOURCE_DIR) + "/deploy/missions")) {
+  for (const auto& entry : std::filesystem::directory_iterator(source_directory() + "/deploy/missions")) {
     if (entry.path().extension() != ".textproto") continue;
     EXPECT_EQ(file_text(entry.path().string()).rfind("# ", 0), 0u) << entry.path() << " has to say what it shows";
     if (entry.path().stem().extension() == ".requirements") continue;

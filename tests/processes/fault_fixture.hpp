@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "common/base/text.hpp"
+#include "tests/places.hpp"
 #include "tests/processes/fault_flight.hpp"
 #include "tests/processes/flight_figures.hpp"
 #include "tests/processes/launched.hpp"
@@ -92,7 +93,7 @@ class FaultTest : public ProgramsTest {
     ProgramsTest::TearDown();
   }
 
-  static std::string mission() { return std::string(GYRE_SOURCE_DIR) + "/tests/processes/missions/faults.textproto"; }
+  static std::string mission() { return source_directory() + "/tests/processes/missions/faults.textproto"; }
   /// The same mission at another rate, and with another policy.
   [[nodiscard]] std::string mission_at(double rate_rad_s, const std::string& silence) const {
     std::ostringstream text;
@@ -119,7 +120,7 @@ class FaultTest : public ProgramsTest {
   [[nodiscard]] std::string mission_with(const std::string& silence) const { return mission_at(1.0, silence); }
 
   void start(const std::string& mission, const std::map<std::string, ClockFault>& clocks = {}, bool engage = true) {
-    auto started = FaultFlight::start({mission, directory(), GYRE_BIN_DIR, clocks, engage});
+    auto started = FaultFlight::start({mission, directory(), program_directory(), clocks, engage});
     ASSERT_TRUE(started) << started.error().text;
     flight_ = std::move(started).value();
   }

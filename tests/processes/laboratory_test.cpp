@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/dds/clock.hpp"
+#include "tests/places.hpp"
 #include "tests/processes/fault_fixture.hpp"
 
 namespace gyre::test {
@@ -20,7 +21,7 @@ constexpr const char* kFoundAnew = "swarm time was found anew";
 class LaboratoryTest : public FaultTest {
  protected:
   void fly_in_laboratory(const std::string& mission) {
-    FaultFlight::Options options{mission, directory(), GYRE_BIN_DIR, {}};
+    FaultFlight::Options options{mission, directory(), program_directory(), {}};
     options.laboratory = true;
     auto started = FaultFlight::start(options);
     ASSERT_TRUE(started) << started.error().text;

@@ -19,19 +19,20 @@
 
 #include "ground/flight/child_process.hpp"
 #include "ground/flight/flight_directory.hpp"
+#include "tests/places.hpp"
 
 namespace gyre::test {
 
 inline std::string built(const std::string& program) {
-  return std::string(GYRE_BIN_DIR) + "/" + program;
+  return program_directory() + "/" + program;
 }
 
 inline std::string quick_mission() {
-  return std::string(GYRE_SOURCE_DIR) + "/tests/processes/missions/quick.textproto";
+  return source_directory() + "/tests/processes/missions/quick.textproto";
 }
 
 inline std::string shipped_mission(const std::string& name) {
-  return std::string(GYRE_SOURCE_DIR) + "/deploy/missions/" + name + ".textproto";
+  return source_directory() + "/deploy/missions/" + name + ".textproto";
 }
 
 /// Polls until it holds; false when it does not within the limit.

@@ -11,6 +11,7 @@
 
 #include "common/dds/topics.hpp"
 #include "ground/recording/core/schemas.hpp"
+#include "tests/places.hpp"
 
 namespace gyre::tests {
 namespace {
@@ -22,7 +23,7 @@ using Fields = std::vector<std::pair<std::string, std::string>>;
 
 std::string whole_file(const std::string& path) {
   std::ostringstream text;
-  text << std::ifstream(std::string(GYRE_SOURCE_DIR) + "/" + path).rdbuf();
+  text << std::ifstream(test::source_directory() + "/" + path).rdbuf();
   return text.str();
 }
 

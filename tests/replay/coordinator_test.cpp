@@ -6,6 +6,7 @@
 #include "coordinator/journal.hpp"
 #include "coordinator/judged_job.hpp"
 #include "tests/coordinator/swarm_of_agents.hpp"
+#include "tests/places.hpp"
 #include "tests/replay/journaled.hpp"
 
 namespace gyre::coordinator::test {
@@ -16,7 +17,7 @@ using testing::HasSubstr;
 
 Job shipped(const std::string& name) {
   const auto mission =
-      mission::read_mission_file(std::string(GYRE_SOURCE_DIR) + "/deploy/missions/" + name + ".textproto");
+      mission::read_mission_file(gyre::test::source_directory() + "/deploy/missions/" + name + ".textproto");
   EXPECT_TRUE(mission) << mission.error().text;
   auto job = judged_job(mission::to_text(mission.value()));
   EXPECT_TRUE(job) << job.error().text;

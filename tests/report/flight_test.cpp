@@ -12,6 +12,7 @@
 #include "ground/report/core/page.hpp"
 #include "ground/report/core/sheets.hpp"
 #include "tests/ground/svg_reader.hpp"
+#include "tests/places.hpp"
 #include "tests/report/perfect_swarm.hpp"
 
 namespace gyre::ground {
@@ -259,7 +260,7 @@ TEST(ReportFlight, TheCommittedPicturesSayWhatTheCommandSaysToday) {
   for (const Sheet& sheet : sheets(both())) {
     if (sheet.name != "motion" && sheet.name != "load") continue;
     std::ostringstream text;
-    text << std::ifstream(std::string(GYRE_SOURCE_DIR) + "/docs/pictures/report-" + sheet.name + ".svg").rdbuf();
+    text << std::ifstream(test::source_directory() + "/docs/pictures/report-" + sheet.name + ".svg").rdbuf();
     const test::SvgFile committed = test::read_svg(text.str()), today = test::read_svg(sheet.svg);
     const std::string cure = "fly and record paper and paper-fixed, and draw them again with gyre report";
     ASSERT_EQ(committed.complaint, "") << sheet.name;

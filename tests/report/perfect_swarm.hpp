@@ -8,11 +8,12 @@
 #include "common/mechanics/reference.hpp"
 #include "common/mission/mission.hpp"
 #include "ground/swarm/core/swarm_view.hpp"
+#include "tests/places.hpp"
 
 namespace gyre::test {
 
 inline mission::Mission shipped_mission(const std::string& name) {
-  auto mission = mission::read_mission_file(std::string(GYRE_SOURCE_DIR) + "/deploy/missions/" + name + ".textproto");
+  auto mission = mission::read_mission_file(source_directory() + "/deploy/missions/" + name + ".textproto");
   GYRE_ENSURE(mission.ok(), "a shipped mission is read");
   return std::move(mission).value();
 }

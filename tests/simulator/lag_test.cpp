@@ -8,6 +8,7 @@
 #include "common/mechanics/lag.hpp"
 #include "common/mission/mission.hpp"
 #include "simulator/core/simulator.hpp"
+#include "tests/places.hpp"
 #include "tests/simulator/agents.hpp"
 #include "tests/simulator/rigs.hpp"
 
@@ -19,7 +20,7 @@ using std::chrono::milliseconds;
 
 mechanics::Plan hex(double winch_lag_s, double vehicle_lag_s = 0.0) {
   mechanics::Plan plan =
-      mission::read_mission_file(GYRE_SOURCE_DIR "/deploy/missions/hex-multirotor.textproto").value().plan;
+      mission::read_mission_file(test::source_directory() + "/deploy/missions/hex-multirotor.textproto").value().plan;
   plan.winch.time_constant_s = winch_lag_s;
   for (mechanics::Carrier& carrier : plan.carriers) carrier.vehicle.time_constant_s = vehicle_lag_s;
   return plan;

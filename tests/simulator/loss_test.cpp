@@ -7,6 +7,7 @@
 #include "common/base/random_stream.hpp"
 #include "common/mission/mission.hpp"
 #include "simulator/core/simulator.hpp"
+#include "tests/places.hpp"
 #include "tests/simulator/agents.hpp"
 
 namespace gyre::simulator {
@@ -17,7 +18,9 @@ using std::chrono::milliseconds;
 
 /// Eight multirotors on sharp bends, whose winches lag by 0.05 s and whose vehicles lag by 0.1 s.
 mechanics::Plan octet() {
-  return mission::read_mission_file(GYRE_SOURCE_DIR "/deploy/missions/multirotor-octet.textproto").value().plan;
+  return mission::read_mission_file(test::source_directory() + "/deploy/missions/multirotor-octet.textproto")
+      .value()
+      .plan;
 }
 
 /// How far the load moves while every carrier loses that share of its setpoints.

@@ -9,13 +9,14 @@
 #include <cstdio>
 
 #include "common/mission/mission.hpp"
+#include "tests/places.hpp"
 #include "tests/simulator/rigs.hpp"
 
 namespace gyre::simulator {
 namespace {
 
 mechanics::Plan mission(const std::string& path) {
-  const auto read = mission::read_mission_file(std::string(GYRE_SOURCE_DIR) + "/" + path + ".textproto");
+  const auto read = mission::read_mission_file(test::source_directory() + "/" + path + ".textproto");
   if (!read) ADD_FAILURE() << read.error().text;
   return read.value().plan;
 }

@@ -48,8 +48,7 @@ Outputs Agent::step(LocalTime now, const Event& event) {
   // What waited for a process that was stopped is as old as that, whenever it says that it arrived. To whoever flies it
   // does not matter soon; whoever is about to begin would begin there.
   if (stepped_at_ && now - *stepped_at_ > (flown_at_ ? options_.stall : 5 * options_.control_period)) {
-    awake_since_ = now;
-    vehicle_.reset();
+    listen(now);
   }
   stepped_at_ = now;
   watch_.step(now);
@@ -101,8 +100,7 @@ void Agent::send(LocalTime now, const protocol::Setpoint& setpoint, Outputs& out
   if (!withheld_ || now - withheld_->at > options_.complained) out.notices.push_back({Notice::Level::kError, *why});
   withheld_ = Withheld{now, *why};
   steps_.forget();
-  awake_since_ = now;
-  vehicle_.reset();
+  listen(now);
 }
 
 bool Agent::accepts_term(std::uint64_t term, Outputs& out) {
@@ -285,7 +283,7 @@ bool Agent::merge_to(LocalTime now, const protocol::Course& course) {
   }
   if (awake_since_ && now - *awake_since_ < options_.backlog) return false;
   if (!wants_vehicle_since_) wants_vehicle_since_ = now;
-  if (vehicle_ && now - vehicle_heard_ <= options_.vehicle_timeout) {
+  if (vehicle_ && now - vehicle_held_ <= options_.vehicle_timeout) {
     begin_at_the_vehicle(now, path(course));
   } else if (now - *wants_vehicle_since_ < options_.vehicle_wait) {
     return false;
@@ -301,6 +299,7 @@ void Agent::give_way() {
   wants_vehicle_since_.reset();
   flown_at_.reset();
   awake_since_.reset();
+  seems_lost_ = false;
 }
 
 void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
@@ -334,14 +333,14 @@ void Agent::on(LocalTime now, const TimeReplyArrived& event, Outputs& out) {
     out.notices.push_back({Notice::Level::kWarning,
                            "a clock jumped, this one or the coordinator's: swarm time was found "
                            "anew"});
+    vehicle_ages_ = {};  // by the clock that may have jumped
     if (flown && reference(course_, clock_.at(now))) merge_.begin(clock_.at(now), *flown, path(course_));
     // The carrier is where the last setpoint led it, and is led on where time is off by no more than one of them: as
     // after a coordinator has learned it from its agents. Or it has gone on by itself: where that is, it has to tell.
     const bool led = flown_at_ && now - *flown_at_ <= 5 * options_.control_period;
     const Duration off = clock_.at(now) - *time_before;
     if (!led || off > options_.control_period || off < -options_.control_period) {
-      awake_since_ = now;
-      vehicle_.reset();
+      listen(now);
     }
   } else if (verdict != Verdict::kTaken) {
     ++dropped_.nonsense;

@@ -18,6 +18,7 @@
 #include "agent/core/step_judge.hpp"
 #include "common/base/notice.hpp"
 #include "common/mechanics/reference.hpp"
+#include "common/protocol/age_judge.hpp"
 #include "common/protocol/counting.hpp"
 #include "common/protocol/incumbent.hpp"
 #include "common/protocol/liveness.hpp"
@@ -52,6 +53,9 @@ struct AgentOptions {
   Duration doubt = std::chrono::milliseconds(500);            ///< since a beacon that came from the future
   /// A restarted agent waits so long for its vehicle to tell where it is, rather than fly a step.
   Duration vehicle_wait = std::chrono::milliseconds(500);
+  /// Who begins where his vehicle is begins where it said so that lately: a word that waited, of a vehicle that was
+  /// stopped, is followed by nothing for a while.
+  Duration vehicle_fresh = std::chrono::milliseconds(100);
   /// A vehicle that told where it is, and does not any more, is silent. One that never tells is flown all the same.
   Duration vehicle_timeout = std::chrono::seconds(1);
   /// When it tells again: further away than this, it was not only not heard but did not hear either.
@@ -138,6 +142,10 @@ class Agent {
   /// Another agent of this carrier is believed: this one follows nothing, until that one is gone.
   void give_way();
   [[nodiscard]] bool back_at_the_vehicle(LocalTime now);
+  [[nodiscard]] Duration age_of(const protocol::CarrierState& state, LocalTime now, bool after_silence,
+                                bool of_another);
+  /// Says nothing until it has heard anew where the vehicle is.
+  void listen(LocalTime now);
   void begin_at_the_vehicle(LocalTime now, const Path& path);
   /// Whether the vehicle says that it follows another agent.
   [[nodiscard]] bool led_by_another(LocalTime now) const;
@@ -181,11 +189,14 @@ class Agent {
   protocol::Incumbent vehicles_;
   std::optional<protocol::CarrierState> vehicle_;  ///< where the carrier really is
   LocalTime vehicle_heard_{};
+  LocalTime vehicle_held_{};  ///< when it was there
+  protocol::AgeJudge vehicle_ages_;
   std::optional<LocalTime> unfollowed_since_;  ///< the vehicle says that it follows another agent
   std::optional<LocalTime> wants_vehicle_since_;
   std::optional<LocalTime> stepped_at_;
   std::optional<LocalTime> flown_at_;     ///< the last setpoint, or where the vehicle was when it began
   std::optional<LocalTime> awake_since_;  ///< after it was stopped, or not followed: the vehicle has gone on
+  bool seems_lost_ = false;               ///< and that is all that keeps it from speaking
   std::optional<LocalTime> doubted_at_;
   bool contradicted_ = false;  ///< by the last exchange
 

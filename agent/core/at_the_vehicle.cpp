@@ -29,12 +29,36 @@ void Agent::on(LocalTime now, const protocol::CarrierState& state, Outputs& /*ou
   const bool another = vehicle_ && verdict == protocol::Incumbent::Verdict::kSucceeds;
   vehicle_ = state;
   vehicle_heard_ = now;
-  if (flies && (was_silent || another) && is_lost(now)) awake_since_ = now;
+  vehicle_held_ = now - age_of(state, now, was_silent, verdict == protocol::Incumbent::Verdict::kSucceeds);
+  // How late the first one came is not known before the next ones: nothing has happened then, and nothing was said.
+  if (seems_lost_ && !is_lost(now)) {
+    awake_since_.reset();
+    seems_lost_ = false;
+  }
+  if (flies && (was_silent || another) && is_lost(now)) {
+    awake_since_ = now;
+    seems_lost_ = true;
+  }
   if (state.follows == 0 || state.follows == options_.incarnation) {
     unfollowed_since_.reset();
   } else if (!unfollowed_since_) {
     unfollowed_since_ = now;
   }
+}
+
+/// What waited, for a vehicle that was stopped or for this process, is older than its arrival. A stamp of zero is none:
+/// that vehicle is taken at its word.
+Duration Agent::age_of(const protocol::CarrierState& state, LocalTime now, bool after_silence, bool of_another) {
+  if (of_another) vehicle_ages_ = {};
+  if (state.stamp == LocalTime{} || !usable(state.stamp)) return Duration::zero();
+  if (after_silence) vehicle_ages_.keep(now);
+  return vehicle_ages_.age(state.stamp.time_since_epoch(), now);
+}
+
+void Agent::listen(LocalTime now) {
+  awake_since_ = now;
+  seems_lost_ = false;
+  vehicle_.reset();
 }
 
 bool Agent::led_by_another(LocalTime now) const {
@@ -44,31 +68,33 @@ bool Agent::led_by_another(LocalTime now) const {
 bool Agent::is_lost(LocalTime now) const {
   const std::optional<SwarmTime> time = swarm_time(now);
   if (!time || !reference(course_, *time)) return false;
-  const Command asked = merge_.apply(*time, path(course_));
+  const Command asked = merge_.apply(*time - (now - vehicle_held_), path(course_));
   return (asked.position_w_m.value - vehicle_->position_w_m).norm() > options_.vehicle_lost_m;
 }
 
 /// After a stall, its own or the wire's to the vehicle, the vehicle has gone on by itself: what it is told next begins
 /// where it is. False while that is unknown.
 bool Agent::back_at_the_vehicle(LocalTime now) {
-  if (flown_at_ && now - *flown_at_ > options_.stall && !awake_since_) {
-    awake_since_ = now;
-    vehicle_.reset();
-  }
+  if (flown_at_ && now - *flown_at_ > options_.stall && !awake_since_) listen(now);
   // What is said to a vehicle that follows another agent is not flown, and would be a leap once that one is gone.
-  if (led_by_another(now)) awake_since_ = now;
+  if (led_by_another(now)) {
+    awake_since_ = now;
+    seems_lost_ = false;
+  }
   if (awake_since_) {
     const Duration awake = now - *awake_since_;
-    if (awake < options_.backlog || (!vehicle_ && awake < options_.vehicle_wait)) return false;
-    if (vehicle_) begin_at_the_vehicle(now, path(course_));
+    const bool tells = vehicle_ && now - vehicle_held_ <= options_.vehicle_fresh;
+    if (awake < options_.backlog || (!tells && awake < options_.vehicle_wait)) return false;
+    if (tells) begin_at_the_vehicle(now, path(course_));
     awake_since_.reset();
+    seems_lost_ = false;
   }
   flown_at_ = now;
   return true;
 }
 
 void Agent::begin_at_the_vehicle(LocalTime now, const Path& path) {
-  merge_.begin_at_vehicle(clock_.at(now), now - vehicle_heard_, command_of(*vehicle_), path);
+  merge_.begin_at_vehicle(clock_.at(now), now - vehicle_held_, command_of(*vehicle_), path);
   steps_.forget();  // it was silent, and what it said before was not flown
   flown_at_ = now;  // a stall before the first setpoint is one, too
 }

@@ -57,6 +57,7 @@ void Agent::leapt(LocalTime now, Duration by, const std::optional<Command>& flow
   if (misled && flown && reference(course_, clock_.at(now))) merge_.begin(clock_.at(now), *flown, path(course_));
   coordinator_.heard(now);  // it answered just now; by this clock all it said before is as old as the leap is long
   doubted_at_.reset();
+  vehicle_ages_ = {};  // by this clock its next word would be as old as the leap is long, too
   watch_.leapt(by);
 }
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "simulator/core/age_judge.hpp"
+#include "common/protocol/age_judge.hpp"
 #include "simulator/core/extrapolation.hpp"
 
 namespace gyre::simulator {
@@ -12,7 +12,13 @@ SetpointJudge::SetpointJudge(const mechanics::Plan& plan, double longest_rest_m)
   for (const mechanics::Carrier& carrier : plan.carriers) last_[carrier.id] = {};
 }
 
-SetpointJudge::Stamp SetpointJudge::judge_stamp(Last& last, SwarmTime stamp, LocalTime arrived) {
+bool SetpointJudge::has_plausible_stamp(const protocol::Setpoint& setpoint) {
+  const Duration stamp = setpoint.swarm_time.time_since_epoch();
+  return stamp >= -protocol::kLongestStamp && stamp <= protocol::kLongestStamp;
+}
+
+SetpointJudge::Stamp SetpointJudge::judge_stamp(Last& last, SwarmTime stamp, LocalTime arrived, bool fresh_start) {
+  if (!last.any) return Stamp::kGoesOn;
   const auto apart = [](Duration a, Duration b) { return a > b ? a - b : b - a; };
   const Duration delay = arrived.time_since_epoch() - stamp.time_since_epoch();
   const Duration before = last.arrived.time_since_epoch() - last.swarm_time.time_since_epoch();
@@ -20,6 +26,7 @@ SetpointJudge::Stamp SetpointJudge::judge_stamp(Last& last, SwarmTime stamp, Loc
     last.agreeing = 0;
     return Stamp::kGoesOn;
   }
+  if (fresh_start) return Stamp::kBeginsAnew;
   last.agreeing = last.agreeing > 0 && apart(delay, last.contradicting) <= kContradiction ? last.agreeing + 1 : 1;
   last.contradicting = delay;
   return last.agreeing < kAgreeing ? Stamp::kContradicts : Stamp::kBeginsAnew;
@@ -36,7 +43,7 @@ std::optional<std::string> SetpointJudge::objection(const protocol::Setpoint& se
     return "carrier " + std::to_string(setpoint.carrier) + ": a setpoint of another agent than the one that flies it";
   }
   bool fresh_start = !last.any || arrived - last.arrived > from_seconds(kExtrapolationHorizon_s);
-  const Stamp stamp = fresh_start ? Stamp::kGoesOn : judge_stamp(last, setpoint.swarm_time, arrived);
+  const Stamp stamp = judge_stamp(last, setpoint.swarm_time, arrived, fresh_start);
   if (stamp == Stamp::kContradicts) {
     ++dropped_.nonsense;
     return "carrier " + std::to_string(setpoint.carrier) + ": a setpoint stamped by another clock than those before";
@@ -74,7 +81,7 @@ std::vector<CarrierId> SetpointJudge::contested(LocalTime now) const {
 std::optional<std::string> SetpointJudge::nonsense(const protocol::Setpoint& s) const {
   const std::string who = "setpoint for carrier " + std::to_string(s.carrier) + ": ";
   if (last_.count(s.carrier) == 0) return who + "the mission has no such carrier";
-  if (s.swarm_time.time_since_epoch() > kLongestStamp || s.swarm_time.time_since_epoch() < -kLongestStamp) {
+  if (!has_plausible_stamp(s)) {
     return who + "stamped with a time that no swarm's clock shows";
   }
   const bool finite = s.position_w_m.allFinite() && s.velocity_w_m_s.allFinite() && s.acceleration_w_m_s2.allFinite() &&

@@ -44,6 +44,9 @@ class SetpointJudge {
   /// Absent: fly it. Otherwise why not, in words; the drop is counted.
   [[nodiscard]] std::optional<std::string> objection(const protocol::Setpoint& setpoint, LocalTime arrived);
 
+  /// Whether a swarm's clock may show this.
+  [[nodiscard]] static bool has_plausible_stamp(const protocol::Setpoint& setpoint);
+
   /// Whether the last one that is flown was stamped by another clock than those before.
   [[nodiscard]] bool began_anew(CarrierId carrier) const { return last_.at(carrier).began_anew; }
 
@@ -65,7 +68,8 @@ class SetpointJudge {
     int agreeing = 0;          ///< of those, in a row
   };
   enum class Stamp { kGoesOn, kBeginsAnew, kContradicts };
-  [[nodiscard]] static Stamp judge_stamp(Last& last, SwarmTime stamp, LocalTime arrived);
+  /// `fresh_start`: after a silence that nothing contradicts.
+  [[nodiscard]] static Stamp judge_stamp(Last& last, SwarmTime stamp, LocalTime arrived, bool fresh_start);
 
   [[nodiscard]] std::optional<std::string> nonsense(const protocol::Setpoint& setpoint) const;
 

@@ -8,6 +8,7 @@
 #include "common/base/text.hpp"
 #include "common/mechanics/reference.hpp"
 #include "common/protocol/sanity.hpp"
+#include "simulator/core/extrapolation.hpp"
 #include "simulator/core/load_integrator.hpp"
 #include "simulator/core/push.hpp"
 #include "simulator/core/setpoint_judge.hpp"
@@ -17,6 +18,9 @@
 
 namespace gyre::simulator {
 namespace {
+
+/// By then a vehicle has slowed down, whatever it was told.
+const Duration kOldest = from_seconds(kExtrapolationHorizon_s);
 
 struct WaitingSetpoint {
   LocalTime arrived;
@@ -86,7 +90,7 @@ struct Simulator::World {
 
   void receive(LocalTime arrived, const protocol::Setpoint& setpoint, Outputs& out) {
     // Nobody is believed, not even to be there: an agent that ended meanwhile would be the incumbent for another while.
-    if (stalls.doubts(arrived)) {
+    if (has_waited(setpoint, arrived)) {
       ++waited_too_long;
       latest_objection = "setpoints that may have waited while this process was stopped";
       unreported_drops = true;
@@ -105,11 +109,21 @@ struct Simulator::World {
         out.notices.push_back({Notice::Level::kInfo, text("carrier %u is led by its agent", setpoint.carrier)});
       }
       vehicle.led.heard(arrived);
-      if (judge.began_anew(setpoint.carrier)) vehicle.ages = AgeJudge();
-      const Duration age = vehicle.ages.age(setpoint.swarm_time, arrived);
+      if (judge.began_anew(setpoint.carrier)) vehicle.ages = {};
+      const Duration age = std::min(vehicle.ages.age(setpoint.swarm_time.time_since_epoch(), arrived), kOldest);
       waiting.push_back({arrived, arrived - age, setpoint});
     }
     report_drops(arrived, out);
+  }
+
+  /// Or may have, while this process was stopped.
+  [[nodiscard]] bool has_waited(const protocol::Setpoint& setpoint, LocalTime arrived) {
+    const auto found = index.find(setpoint.carrier);
+    if (found == index.end() || !SetpointJudge::has_plausible_stamp(setpoint)) return false;  // the judge's affair
+    protocol::AgeJudge& ages = vehicles[found->second].ages;
+    const bool waited = stalls.doubts(arrived, ages.age_by_the_past(setpoint.swarm_time.time_since_epoch(), arrived));
+    if (waited) ages.keep(arrived);
+    return waited;
   }
 
   void learn(LocalTime arrived, const protocol::AgentStatus& status) {
@@ -176,8 +190,8 @@ struct Simulator::World {
     const bool caught_up = time() + tick > now;
     const bool long_ago = !published_at || now - *published_at >= kPublicationPeriod;
     if (publication == published || (!caught_up && !long_ago)) return;
-    // Whoever begins where his vehicle is would begin where it was before the stall.
-    if (!caught_up && stalls.doubts(now)) return;
+    // Whoever begins where his vehicle is would begin where it was before the stall, or on the way from there.
+    if (!caught_up && stalls.recent(now)) return;
     published = publication;
     published_at = now;
     publish(out);

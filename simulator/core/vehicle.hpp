@@ -13,9 +13,9 @@
 #include <optional>
 
 #include "common/base/time.hpp"
+#include "common/protocol/age_judge.hpp"
 #include "common/protocol/liveness.hpp"
 #include "common/protocol/messages.hpp"
-#include "simulator/core/age_judge.hpp"
 #include "simulator/core/carrier_follower.hpp"
 #include "simulator/core/load_dynamics.hpp"
 #include "simulator/core/on_silence.hpp"
@@ -41,7 +41,7 @@ class Vehicle {
   [[nodiscard]] Anchor anchor(double t_s) const;
 
   CarrierId id = 0;
-  AgeJudge ages;
+  protocol::AgeJudge ages;
   protocol::Liveness led{kLongestSilence};
   Onward onward;
 

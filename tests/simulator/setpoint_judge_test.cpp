@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "simulator/core/age_judge.hpp"
+#include "common/protocol/age_judge.hpp"
 #include "simulator/core/simulator.hpp"
 #include "tests/simulator/agents.hpp"
 #include "tests/simulator/rigs.hpp"
@@ -41,7 +41,7 @@ class StampTest : public testing::Test {
 
 TEST_F(StampTest, ThatContradictsThoseBeforeIsDroppedAndDeafensNobody) {
   for (const Duration off : {Duration(std::chrono::hours(1)), Duration(-std::chrono::hours(1)),
-                             Duration(milliseconds(1100)), kLongestStamp - std::chrono::hours(1)}) {
+                             Duration(milliseconds(1100)), protocol::kLongestStamp - std::chrono::hours(1)}) {
     const auto nonsense = judge_.dropped().nonsense;
     EXPECT_FALSE(flown(off));
     EXPECT_EQ(judge_.dropped().nonsense, nonsense + 1);

@@ -8,6 +8,7 @@
 #include "common/mission/mission.hpp"
 #include "simulator/core/simulator.hpp"
 #include "simulator/core/stall_judge.hpp"
+#include "tests/places.hpp"
 #include "tests/simulator/agents.hpp"
 
 namespace gyre::simulator {
@@ -41,10 +42,14 @@ class Stall {
   static constexpr Duration kBegins = seconds(9);
 
   /// `succeeded`: the agent of the first carrier ends 0.1 s into the stall, and is started anew 0.4 s later.
-  Stall(const std::string& mission, Duration lasts, bool succeeded)
+  /// `read_in`: what waited is read from the sockets in so long, and what comes meanwhile waits behind it.
+  Stall(const std::string& mission, Duration lasts, bool succeeded, Duration read_in = {})
       : lasts_(lasts),
         succeeded_(succeeded),
-        plan_(mission::read_mission_file(GYRE_SOURCE_DIR "/deploy/missions/" + mission + ".textproto").value().plan) {}
+        read_in_(read_in),
+        plan_(mission::read_mission_file(test::source_directory() + "/deploy/missions/" + mission + ".textproto")
+                  .value()
+                  .plan) {}
 
   /// How far the load moves.
   [[nodiscard]] double moved_mm() {
@@ -57,7 +62,9 @@ class Stall {
         if (const auto setpoint = said(i, t)) hear(*setpoint, t);
       }
       if (stopped(t)) continue;
-      for (; !waited_.empty(); waited_.pop_front()) (void)simulator_.step(LocalTime(t), waited_.front());
+      for (std::size_t left = left_to_read(t); waited_.size() > left; waited_.pop_front()) {
+        (void)simulator_.step(LocalTime(t), waited_.front());
+      }
       // As a main does: before it looks at the world again, it hears what has arrived.
       (void)simulator_.step(LocalTime(t + milliseconds(5)), Advance{});
       const double moved_m = (simulator_.load().position_w_m - plan_.load.position_w_m).norm();
@@ -69,6 +76,13 @@ class Stall {
  private:
   [[nodiscard]] bool stopped(Duration t) const { return t >= kBegins && t < kBegins + lasts_; }
 
+  /// Of what waits by then.
+  [[nodiscard]] std::size_t left_to_read(Duration t) const {
+    const Duration left = kBegins + lasts_ + read_in_ - t;
+    if (left <= Duration::zero()) return 0;
+    return waited_.size() - std::min<std::size_t>(waited_.size(), waited_.size() * milliseconds(10) / left + 1);
+  }
+
   [[nodiscard]] std::optional<protocol::Setpoint> said(std::size_t carrier, Duration t) const {
     protocol::Setpoint s = agents_.setpoint(carrier, t);
     s.incarnation = 1;
@@ -79,15 +93,16 @@ class Stall {
   }
 
   void hear(const protocol::Setpoint& setpoint, Duration t) {
-    if (!stopped(t)) {
+    if (!stopped(t) && waited_.empty()) {
       (void)simulator_.step(LocalTime(t), setpoint);
-    } else if (t < kBegins + kRoom) {
+    } else if (!stopped(t) || t < kBegins + kRoom) {
       waited_.push_back(setpoint);
     }
   }
 
   Duration lasts_;
   bool succeeded_;
+  Duration read_in_;
   mechanics::Plan plan_;
   Agents agents_{plan_, 8.0};
   Simulator simulator_ = Simulator::create(plan_, {}, LocalTime{}).value();
@@ -104,6 +119,17 @@ TEST(Stalled, DoesNotTakeWhatWaitedForThePresentHoweverLongItLasted) {
                 gyre::seconds(lasts), moved_mm, succeeded_mm);
     EXPECT_LT(moved_mm, 0.02) << gyre::seconds(lasts);
     EXPECT_LT(succeeded_mm, 0.02) << gyre::seconds(lasts);
+  }
+}
+
+TEST(Stalled, DoesNotTakeItForThePresentHoweverLongItTakesToReadIt) {
+  for (const Duration read_in : {milliseconds(100), milliseconds(200), milliseconds(400), milliseconds(1000)}) {
+    const double moved_mm = Stall("hex-multirotor", milliseconds(1200), false, read_in).moved_mm();
+    const double succeeded_mm = Stall("hex-multirotor", milliseconds(1200), true, read_in).moved_mm();
+    std::printf("  read in %.1f s: the load moves %.3f mm; %.3f mm where an agent was started anew meanwhile\n",
+                gyre::seconds(read_in), moved_mm, succeeded_mm);
+    EXPECT_LT(moved_mm, 0.02) << gyre::seconds(read_in);
+    EXPECT_LT(succeeded_mm, 0.02) << gyre::seconds(read_in);
   }
 }
 

@@ -78,19 +78,6 @@ class AgentTest : public testing::Test {
     }
   }
 
-  /// It is where it was asked to be.
-  void vehicle_follows() {
-    vehicle_->position_w_m = setpoint_->position_w_m;
-    vehicle_->velocity_w_m_s = setpoint_->velocity_w_m_s;
-    vehicle_->winch_length_m = setpoint_->winch_length_m;
-  }
-
-  /// One period; what the vehicle tells is so old.
-  void fly_stamped(Duration age) {
-    vehicle_->stamp = now_ + std::chrono::hours(3) - age;
-    fly(milliseconds(10));
-  }
-
   Outputs beacon() {
     course_->term = term_;  // whoever leads puts his term to all that he says
     return tell(Beacon{term_, ++sequence_, swarm() + off_, *course_, proposal_, {}});

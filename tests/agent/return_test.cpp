@@ -7,6 +7,23 @@
 namespace gyre::agent {
 namespace {
 
+/// With a vehicle that says when it was where.
+class StampedVehicleTest : public AgentTest {
+ protected:
+  /// It is where it was asked to be.
+  void vehicle_follows() {
+    vehicle_->position_w_m = setpoint_->position_w_m;
+    vehicle_->velocity_w_m_s = setpoint_->velocity_w_m_s;
+    vehicle_->winch_length_m = setpoint_->winch_length_m;
+  }
+
+  /// One period; what the vehicle tells is so old.
+  void fly_stamped(Duration age) {
+    vehicle_->stamp = now_ + std::chrono::hours(3) - age;
+    fly(milliseconds(10));
+  }
+};
+
 TEST_F(AgentTest, AStallIsNotMadeUpFor) {
   rest();
   const std::uint64_t before = setpoint_->sequence;
@@ -53,7 +70,7 @@ TEST_F(AgentTest, AfterALongStallOldStatesThatWaitedForItAreNotBelieved) {
   EXPECT_LT((first->position_w_m - vehicle_->position_w_m).norm(), 1e-9);
 }
 
-TEST_F(AgentTest, AfterALongStallStampedStatesThatWaitedAreNotBelievedHoweverLongTheyAreRead) {
+TEST_F(StampedVehicleTest, AfterALongStallStampedStatesThatWaitedAreNotBelievedHoweverLongTheyAreRead) {
   rest();
   for (int i = 0; i < 100; ++i) fly_stamped(Duration::zero());
   const Duration waited = seconds(2);
@@ -111,7 +128,7 @@ TEST_F(AgentTest, AVehicleThatWasOnlyNotHeardFliesOn) {
   EXPECT_EQ(setpoint_->sequence, before + 20) << "not one setpoint is left out";
 }
 
-TEST_F(AgentTest, AVehicleWhoseWordWaitedIsNotCalledBackToTheTimeOfIt) {
+TEST_F(StampedVehicleTest, AVehicleWhoseWordWaitedIsNotCalledBackToTheTimeOfIt) {
   engage();
   vehicle_at_rest();
   for (int i = 0; i < 100; ++i) {
@@ -134,7 +151,7 @@ TEST_F(AgentTest, AVehicleWhoseWordWaitedIsNotCalledBackToTheTimeOfIt) {
   EXPECT_EQ(setpoint_->sequence, before + 51) << "not one setpoint is left out";
 }
 
-TEST_F(AgentTest, AVehicleWhoseFirstWordIsLateIsNotCalledBackEither) {
+TEST_F(StampedVehicleTest, AVehicleWhoseFirstWordIsLateIsNotCalledBackEither) {
   engage();
   vehicle_at_rest();
   vehicle_->position_w_m = setpoint_->position_w_m;

@@ -5,10 +5,17 @@
 #include <tuple>
 
 namespace gyre::protocol {
+namespace {
+
+constexpr std::size_t kMost = 256;  // a window of the fastest senders has no more: what a flood costs is bounded
+
+}  // namespace
 
 Duration AgeJudge::age(Duration stamp, LocalTime arrived) {
   const Duration delay = arrived.time_since_epoch() - stamp;
-  while (!heard_.empty() && arrived - heard_.front().arrived >= kAgeWindow) heard_.pop_front();
+  while (!heard_.empty() && (arrived - heard_.front().arrived >= kAgeWindow || heard_.size() == kMost)) {
+    heard_.pop_front();
+  }
   heard_.push_back({arrived, delay});
   return std::max(delay - usual_delay(), Duration{});
 }

@@ -26,7 +26,7 @@ using test::HeardSwarm;
 /// The schema: of each message its fields, and of each field its type. Optional ones are left out.
 using Fields = std::map<std::string, std::string>;
 std::map<std::string, Fields> schema() {
-  std::ifstream file(test::source_directory() + "/idl/page.proto");
+  std::ifstream file(gyre::test::source_directory() + "/idl/page.proto");
   const std::regex begin(R"(message (\w+) \{)"), field(R"(\s*(repeated )?(\w+) (\w+) = \d+;.*)");
   std::map<std::string, Fields> messages;
   std::string message;

@@ -12,12 +12,17 @@ constexpr std::size_t kMost = 256;  // a window of the fastest senders has no mo
 }  // namespace
 
 Duration AgeJudge::age(Duration stamp, LocalTime arrived) {
+  const Duration usual = usual_delay(stamp, arrived);
+  return std::max(arrived.time_since_epoch() - stamp - usual, Duration{});
+}
+
+Duration AgeJudge::usual_delay(Duration stamp, LocalTime arrived) {
   const Duration delay = arrived.time_since_epoch() - stamp;
   while (!heard_.empty() && (arrived - heard_.front().arrived >= kAgeWindow || heard_.size() == kMost)) {
     heard_.pop_front();
   }
   heard_.push_back({arrived, delay});
-  return std::max(delay - usual_delay(), Duration{});
+  return usual_delay();
 }
 
 std::optional<Duration> AgeJudge::age_by_the_past(Duration stamp, LocalTime arrived) const {

@@ -39,6 +39,9 @@ class AgeJudge {
   /// Stamps are by one clock, whichever it is, and lie within kLongestStamp of its zero; in order of arrival.
   [[nodiscard]] Duration age(Duration stamp, LocalTime arrived);
 
+  /// The fourth least delay, or the greatest of fewer, this message's among them.
+  [[nodiscard]] Duration usual_delay(Duration stamp, LocalTime arrived);
+
   /// Of a message that is not to be remembered: may be negative. Absent: nothing was ever heard.
   [[nodiscard]] std::optional<Duration> age_by_the_past(Duration stamp, LocalTime arrived) const;
 
@@ -46,7 +49,6 @@ class AgeJudge {
   void keep(LocalTime now);
 
  private:
-  /// The fourth least delay, or the greatest of fewer.
   [[nodiscard]] Duration usual_delay() const;
 
   struct Heard {

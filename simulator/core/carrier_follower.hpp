@@ -38,7 +38,7 @@ class CarrierFollower {
   explicit CarrierFollower(const Eigen::Vector3d& rest_position_w_m, double lag_s = 0.0,
                            OnSilence on_silence = OnSilence::kGoesOn, double tick_s = 0.002);
 
-  /// From `now` on follows a target that held at `held` <= now.
+  /// From `now` on follows a target that held at `held`, or holds in a moment.
   void command(const CarrierTarget& target, double held_s, double now_s, Hand hand = Hand::kSame);
 
   /// Decides the motion from `now` until the next tick; once per tick, in order.

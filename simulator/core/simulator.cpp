@@ -109,9 +109,9 @@ struct Simulator::World {
         out.notices.push_back({Notice::Level::kInfo, text("carrier %u is led by its agent", setpoint.carrier)});
       }
       vehicle.led.heard(arrived);
-      if (judge.began_anew(setpoint.carrier)) vehicle.ages = {};
-      const Duration age = std::min(vehicle.ages.age(setpoint.swarm_time.time_since_epoch(), arrived), kOldest);
-      waiting.push_back({arrived, arrived - age, setpoint});
+      if (judge.began_anew(setpoint.carrier)) vehicle.held_time = {};
+      const LocalTime held = vehicle.held_time.of(setpoint.swarm_time.time_since_epoch(), arrived, kOldest);
+      waiting.push_back({arrived, held, setpoint});
     }
     report_drops(arrived, out);
   }
@@ -120,9 +120,10 @@ struct Simulator::World {
   [[nodiscard]] bool has_waited(const protocol::Setpoint& setpoint, LocalTime arrived) {
     const auto found = index.find(setpoint.carrier);
     if (found == index.end() || !SetpointJudge::has_plausible_stamp(setpoint)) return false;  // the judge's affair
-    protocol::AgeJudge& ages = vehicles[found->second].ages;
-    const bool waited = stalls.doubts(arrived, ages.age_by_the_past(setpoint.swarm_time.time_since_epoch(), arrived));
-    if (waited) ages.keep(arrived);
+    HeldTime& held_time = vehicles[found->second].held_time;
+    const auto age = held_time.age_by_the_past(setpoint.swarm_time.time_since_epoch(), arrived);
+    const bool waited = stalls.doubts(arrived, age);
+    if (waited) held_time.keep(arrived);
     return waited;
   }
 

@@ -3,7 +3,7 @@
 //
 // Intuition: the world is simulated after the fact. A setpoint waits with the time it arrived until the simulated time
 // gets there and takes effect at the first tick not before it, extrapolated from the moment it held for
-// (common/protocol/age_judge.hpp); so how often step() is called changes nothing of the motion, and a main loop may
+// (held_time.hpp); so how often step() is called changes nothing of the motion, and a main loop may
 // sleep from one publication to the next.
 //
 //   step(arrived, setpoint)    judged (setpoint_judge.hpp), then kept until its time

@@ -13,10 +13,10 @@
 #include <optional>
 
 #include "common/base/time.hpp"
-#include "common/protocol/age_judge.hpp"
 #include "common/protocol/liveness.hpp"
 #include "common/protocol/messages.hpp"
 #include "simulator/core/carrier_follower.hpp"
+#include "simulator/core/held_time.hpp"
 #include "simulator/core/load_dynamics.hpp"
 #include "simulator/core/on_silence.hpp"
 #include "simulator/core/onward.hpp"
@@ -32,7 +32,7 @@ class Vehicle {
   Vehicle(CarrierId own_id, OnSilence when_silent, const CarrierFollower& carrier, const Winch& drum)
       : id(own_id), on_silence_(when_silent), follower_(carrier), winch_(drum) {}
 
-  /// From the tick at `now` on it is led by what held at `held` <= now.
+  /// From the tick at `now` on it is led by what held at `held`, or holds in a moment (held_time.hpp).
   void take_up(const protocol::Setpoint& setpoint, LocalTime held, LocalTime now, LocalTime start);
 
   /// Decides the motion from `now` until the next tick; once per tick, in order, after what is taken up then.
@@ -41,7 +41,7 @@ class Vehicle {
   [[nodiscard]] Anchor anchor(double t_s) const;
 
   CarrierId id = 0;
-  protocol::AgeJudge ages;
+  HeldTime held_time;
   protocol::Liveness led{kLongestSilence};
   Onward onward;
 

@@ -47,7 +47,7 @@ class Winch {
  public:
   Winch(double rest_length_m, const WinchSettings& settings, OnSilence on_silence = OnSilence::kGoesOn);
 
-  /// From `now` on follows a target that held at `held` <= now.
+  /// From `now` on follows a target that held at `held`, or holds in a moment.
   void command(const WinchTarget& target, double held_s, double now_s, Hand hand = Hand::kSame);
 
   /// Decides the motion from `now` until the next tick; once per tick, in order.

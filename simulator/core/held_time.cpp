@@ -8,12 +8,13 @@ LocalTime HeldTime::of(Duration stamp, LocalTime arrived, Duration oldest) {
   const Duration usual = ages_.usual_delay(stamp, arrived);
   if (!base_ || std::chrono::abs(usual - base_->behind) >= kLeap) base_ = Base{arrived, arrived, usual};
   Base& base = *base_;
-  if (arrived - base.begun < protocol::kAgeWindow) {
+  const Duration known = arrived - base.begun - protocol::kAgeWindow;
+  if (known <= Duration{}) {
     base.behind = usual;
   } else {
     const double off_s = seconds(usual - base.behind);
     const double ratio = off_s / seconds(kNear);
-    const double share = seconds(arrived - base.last) / seconds(kSteady) * (1.0 + ratio * ratio);
+    const double share = seconds(arrived - base.last) / seconds(std::min(known, kSteady)) * (1.0 + ratio * ratio);
     base.behind += from_seconds(std::min(share, 1.0) * off_s);
   }
   base.last = arrived;

@@ -4,9 +4,10 @@
 //   x      the setpoint's stamp, by its agent's clock                                                    ns
 //   u      its agent's usual delay (common/protocol/age_judge.hpp): what the stamps lie behind the arrivals
 //   b      the time base: held = x + b
+//   T      for how long u has been known, at most kSteady                                                s
 //
-//   b' = (u − b) / kSteady · (1 + ((u − b) / kNear)²)       slow when near, quick when far
-//   b  = u                                                 in the first kAgeWindow, and where they are kLeap apart
+//   b' = (u − b) / T · (1 + ((u − b) / kNear)²)       slow when near, quick when far; at first the mean of all u
+//   b  = u                                            in the first kAgeWindow, and where they are kLeap apart
 //
 // u steps by tens of microseconds from one setpoint to the next, as the machine has it. A vehicle does not, and neither
 // does its autopilot's clock: a step of 25 µs asks a winch that pays out 4 m/s for 0.1 mm at once, and as its drum lags
